@@ -1,0 +1,41 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/tum_sequence.h"
+
+namespace cpslam {
+
+/// A decoded pair. Either both images are valid or error says in one line which file is bad and how.
+struct RgbdImages {
+  double time_s = 0.0;
+  cv::Mat colour;  ///< CV_8UC3 (B,G,R) or CV_8UC1
+  cv::Mat depth;   ///< CV_16UC1 or CV_32FC1, in units of DepthMapFactor
+  std::string error;
+};
+
+/// Decodes one pair; never throws for bad files (missing, truncated, not an image, wrong type, differing sizes):
+/// the error comes back in the result, so that a bad file costs one frame and not the run.
+[[nodiscard]] RgbdImages read_rgbd(const RgbdEntry& entry);
+
+/// Decodes a list of pairs ahead of the reader in a thread of its own, so that decoding is not part of the
+/// tracking time. next() and skip() from one thread.
+class ReadAhead {
+ public:
+  ReadAhead(std::vector<RgbdEntry> entries, std::size_t capacity);
+  ~ReadAhead();  ///< stops and joins
+  ReadAhead(const ReadAhead&) = delete;
+  ReadAhead& operator=(const ReadAhead&) = delete;
+
+  /// The next pair in order; false at the end of the list.
+  bool next(RgbdImages& images);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace cpslam

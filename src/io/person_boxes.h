@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace cpslam {
+
+/// A person in an image: pixels, top-left corner, may reach over the image's border.
+struct PersonBox {
+  double x = 0.0;
+  double y = 0.0;
+  double width = 0.0;
+  double height = 0.0;
+  double confidence = 1.0;  ///< [0, 1]
+};
+
+struct StampedBoxes {
+  double time_s = 0.0;  ///< the colour image's
+  std::vector<PersonBox> boxes;
+};
+
+/// Writes person_boxes.txt: "timestamp x y width height confidence", one box a line; frames without a person have
+/// no line. Through a temporary file that is renamed. Throws RunError naming the file.
+void write_person_boxes(const std::string& path, const std::vector<StampedBoxes>& frames);
+
+/// Reads such a file, frames in the order of their stamps. Throws InputError naming file and line.
+[[nodiscard]] std::vector<StampedBoxes> read_person_boxes(const std::string& path);
+
+}  // namespace cpslam

@@ -1,0 +1,1 @@
+"""Shared parts of CP-SLAM's scripts: trajectories, their errors, plots and benchmarks."""

@@ -54,7 +54,9 @@ is_installed() {
 check_system() {
   local system="unknown" name="an unknown system"
   if [[ -r "$OS_RELEASE" ]]; then
+    # shellcheck source=/dev/null
     system="$(. "$OS_RELEASE" && echo "${ID:-unknown} ${VERSION_ID:-0}")"
+    # shellcheck source=/dev/null
     name="$(. "$OS_RELEASE" && echo "${PRETTY_NAME:-$system}")"
   fi
   if is_supported "$system" && command -v apt-get >/dev/null; then return; fi

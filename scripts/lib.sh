@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Shared by the shell scripts: source it, do not run it.
 
 ROOT="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd)"
@@ -26,7 +27,7 @@ build_preset() {
   shift
   say "Building preset $preset"
   (
-    cd -- "$ROOT"
+    cd -- "$ROOT" || exit 1
     cmake --preset "$preset"
     cmake --build --preset "$preset" --parallel "$(build_jobs)" ${1:+--target "$@"}
   ) >&2

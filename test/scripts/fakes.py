@@ -1,0 +1,97 @@
+"""Stand-ins for the built programs, so that the scripts around them can be tested in a second and made to fail."""
+
+import os
+import stat
+
+RGBD_TUM = '''#!/usr/bin/python3
+"""Answers with the ground truth, 3 % too long in x when threaded. A file in the sequence makes it misbehave."""
+import json, os, sys, time
+arguments = sys.argv[1:]
+_, settings, sequence = arguments[:3]
+output = arguments[arguments.index("--output") + 1]
+def has(name): return os.path.exists(os.path.join(sequence, name))
+if has("crash"):
+    sys.exit("rgbd_tum: the fake crashed as asked")
+if has("hang"):
+    time.sleep(60)
+if has("report"):
+    print("src/x.cpp:1:2: runtime error: signed integer overflow", file=sys.stderr)
+rows = [line.split() for line in open(os.path.join(sequence, "groundtruth.txt")) if line[0] != "#"]
+limit = int(arguments[arguments.index("--max-frames") + 1]) if "--max-frames" in arguments else len(rows)
+rows = rows[:limit]
+scale = 1.0 if "--sequential" in arguments else 1.03
+with open(os.path.join(output, "CameraTrajectory.txt"), "w") as file:
+    for row in rows:
+        file.write(" ".join([row[0], str(scale * float(row[1])), *row[2:]]) + "\\n")
+    if has("random"):
+        file.write("# " + str(time.time_ns()) + "\\n")
+statistics = {"version": "0", "frames": len(rows), "tracked": len(rows) - 1, "keyframes": min(len(rows), 40),
+              "map_points": 100, "peak_memory_mb": 200.0, "wall_s": 1.5,
+              "tracking_ms": {"p50": 20.0, "p95": 30.0, "max": 40.0, "mean": 21.0},
+              "stages": [{"stage": "extract", "count": len(rows), "p50_ms": 9.0, "p95_ms": 12.0, "max_ms": 15.0}]}
+with open(os.path.join(output, "stats.json"), "w") as file:
+    json.dump(statistics, file)
+'''
+
+SIMULATE_TUM = '''#!/usr/bin/python3
+"""Writes the lists of a sequence without the images."""
+import os, sys
+preset, directory = sys.argv[1:3]
+frames = int(sys.argv[sys.argv.index("--frames") + 1])
+if preset == "unknown":
+    sys.exit("simulate_tum: no preset 'unknown'")
+os.makedirs(os.path.join(directory, "rgb"), exist_ok=True)
+os.makedirs(os.path.join(directory, "depth"), exist_ok=True)
+open(os.path.join(directory, "settings.yaml"), "w").write("%YAML:1.0\\n")
+def lines(data): return "".join(f"{10 + i / 30:.6f} {data(i)}\\n" for i in range(frames))
+open(os.path.join(directory, "rgb.txt"), "w").write(lines(lambda i: f"rgb/{i}.png"))
+open(os.path.join(directory, "depth.txt"), "w").write(lines(lambda i: f"depth/{i}.png"))
+open(os.path.join(directory, "groundtruth.txt"), "w").write(lines(lambda i: f"{i / 30} {(i % 7) / 10} 0 0 0 0 1"))
+'''
+
+BENCHMARK = '''#!/usr/bin/python3
+import json
+def row(name, time, unit, aggregate):
+    return {"name": name + "_" + aggregate, "run_name": name, "aggregate_name": aggregate, "real_time": time,
+            "time_unit": unit}
+print(json.dumps({"context": {}, "benchmarks": [
+    row("OrbExtractor", 8.0, "ms", "mean"), row("OrbExtractor", 6.0, "ms", "median"),
+    row("OpenCvOrb", 12000.0, "us", "median")]}))
+'''
+
+
+def install(path, text):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text)
+    path.chmod(path.stat().st_mode | stat.S_IXUSR)
+
+
+def build_folder(tmp_path, preset="release"):
+    """A build directory whose programs are the fakes."""
+    folder = tmp_path / "build" / preset
+    install(folder / "bin" / "rgbd_tum", RGBD_TUM)
+    install(folder / "bin" / "simulate_tum", SIMULATE_TUM)
+    return folder
+
+
+def sequence_folder(tmp_path, name, *markers):
+    """A walk of 0.1 m per frame along x with a zigzag in y, 60 frames at 10 Hz."""
+    folder = tmp_path / name
+    folder.mkdir()
+    rows = [f"{i / 10:.6f} {i / 10} {i % 2} 0 0 0 0 1\n" for i in range(60)]
+    (folder / "groundtruth.txt").write_text("".join(rows))
+    (folder / "settings.yaml").write_text("%YAML:1.0\n")
+    for marker in markers:
+        (folder / marker).touch()
+    return folder
+
+
+def without_program(folder, *names):
+    """PATH entries with every program of the system but the named ones, as links in folder."""
+    folder.mkdir()
+    for directory in ("/usr/bin", "/bin"):
+        for name in os.listdir(directory):
+            link = folder / name
+            if name not in names and not link.is_symlink():
+                link.symlink_to(os.path.join(directory, name))
+    return str(folder)

@@ -115,8 +115,8 @@ class BundleRound {
     if (ceres_problem_.NumResidualBlocks() == 0 || max_iterations <= 0) return 0;
     AbortCallback callback(options);
     ceres::Solver::Options solver;
-    // Without a free pose there is no Schur complement; Ceres then turns the sparse kind, and only that one, into
-    // a solver that knows the points to be independent.
+    // Without a free pose there is no Schur complement; Ceres then turns the sparse kind, and only that one,
+    // into a solver that knows the points to be independent.
     solver.linear_solver_type =
         n_free_poses_ > 0 && n_free_poses_ <= kMaxDensePoses ? ceres::DENSE_SCHUR : ceres::SPARSE_SCHUR;
     solver.linear_solver_ordering = ordering_;
@@ -128,7 +128,7 @@ class BundleRound {
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &ceres_problem_, &summary);
     write_back();
-    return summary.num_successful_steps + summary.num_unsuccessful_steps;
+    return std::max(0, static_cast<int>(summary.iterations.size()) - 1);  // Ceres counts the start as one
   }
 
  private:
@@ -200,7 +200,8 @@ BundleResult adjust_bundle(BundleProblem& problem, const BundleOptions& options)
         BundleRound(problem, judgement.outlier, false).solve(options, options.final_iterations);
     judgement = judge(problem);
   }
-  // The flag may also have come up after the last iteration; nothing was cut short then, but saying so is harmless.
+  // The flag may also have come up after the last iteration; nothing was cut short then, but saying so is
+  // harmless.
   result.aborted = abort_wanted(options);
   result.outlier = std::move(judgement.outlier);
   result.final_cost = judgement.cost;

@@ -33,18 +33,19 @@ struct BundleOptions {
 };
 
 struct BundleResult {
-  bool aborted = false;               ///< poses and points are still the best found so far
-  std::vector<std::uint8_t> outlier;  ///< parallel to the observations: beyond the 95 % gate or behind the camera
+  bool aborted = false;  ///< poses and points are still the best found so far
+  std::vector<std::uint8_t>
+      outlier;                ///< parallel to the observations: beyond the 95 % gate or behind the camera
   double initial_cost = 0.0;  ///< half the Huber sum of all finite observations before the call
   double final_cost = 0.0;    ///< the same sum at the result
   int iterations = 0;         ///< of both rounds, rejected steps included
 };
 
 /// Bundle adjustment by Ceres (Schur complement, analytic Jacobians; Triggs et al. 2000) that refines
-/// problem.cam_from_world and problem.point_in_world in place. Fixed poses and points without a usable observation
-/// keep their values bit by bit. Observations of non-finite points or pixels are outliers and take no part.
-/// At least one pose must be fixed; throws InputError otherwise, when an index is out of range or when the lists'
-/// sizes disagree. Without observations nothing happens. Deterministic with one thread.
+/// problem.cam_from_world and problem.point_in_world in place. Fixed poses and points without a usable
+/// observation keep their values bit by bit. Observations of non-finite points or pixels are outliers and
+/// take no part. At least one pose must be fixed; throws InputError otherwise, when an index is out of range
+/// or when the lists' sizes disagree. Without observations nothing happens. Deterministic with one thread.
 BundleResult adjust_bundle(BundleProblem& problem, const BundleOptions& options);
 
 }  // namespace cpslam

@@ -7,9 +7,9 @@ namespace cpslam {
 /// One measured keypoint: undistorted pixel and, where the keypoint has depth, its virtual right coordinate.
 struct PointObservation {
   Eigen::Vector2d uv = Eigen::Vector2d::Zero();  ///< px
-  double right = -1.0;                            ///< px; negative: no depth, a monocular observation
-  double sigma_px = 1.0;                          ///< standard deviation of u and v
-  double sigma_right_px = 1.0;                    ///< standard deviation of (u - right), the disparity, given depth
+  double right = -1.0;                           ///< px; negative: no depth, a monocular observation
+  double sigma_px = 1.0;                         ///< standard deviation of u and v
+  double sigma_right_px = 1.0;  ///< standard deviation of (u - right), the disparity, given depth
 
   [[nodiscard]] bool has_depth() const { return right >= 0.0; }
 };

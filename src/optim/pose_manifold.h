@@ -7,8 +7,8 @@
 
 namespace cpslam {
 
-/// Rigid transforms as Ceres sees them: seven doubles, unit quaternion (x, y, z, w) and translation (m), with the
-/// left perturbation Plus(x, delta) = exp(delta) * x, delta = (translation, rotation).
+/// Rigid transforms as Ceres sees them: seven doubles, unit quaternion (x, y, z, w) and translation (m), with
+/// the left perturbation Plus(x, delta) = exp(delta) * x, delta = (translation, rotation).
 ///
 /// The Jacobians are "lifted": cost functions put their derivative by delta into the first six of the seven
 /// columns and zeros into the last, and PlusJacobian says [I6; 0], so that Ceres's product of the two is that

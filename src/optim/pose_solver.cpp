@@ -14,12 +14,17 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 constexpr int kMinObservations = 3;
-/// A step that promises less than this in chi-square lies within 0.3 % of a standard deviation of the optimum.
+/// A step that promises less than this in chi-square lies within 0.3 % of a standard deviation of the
+/// optimum.
 constexpr double kNegligibleChi2 = 1e-5;
 constexpr double kStartDamping = 1e-5;
 constexpr double kMinDamping = 1e-9;
 constexpr double kRejectedDamping = 1e-3;
 constexpr double kMaxDamping = 1e8;
+/// Least damping of a direction relative to the best known one: without it the pose runs away along
+/// directions that the points hardly determine. Metres and radians are of one size at the distances of a
+/// room.
+constexpr double kDampingFloor = 0.01;
 /// Relative to the largest eigenvalue; below it an eigenvalue is rounding noise of a singular matrix.
 constexpr double kSingular = 1e-12;
 
@@ -29,8 +34,8 @@ bool descend(const PoseEquations& equations, bool robust, int max_iterations, SE
   double damping = kStartDamping;
   for (int iteration = 0; iteration < max_iterations && damping < kMaxDamping; ++iteration) {
     Matrix6d damped = model.information;
-    const double floor = kSingular * damped.diagonal().maxCoeff();
-    damped.diagonal() += damping * model.information.diagonal() + Vector6d::Constant(floor);
+    const double floor = kDampingFloor * damped.diagonal().maxCoeff();
+    damped.diagonal() += damping * model.information.diagonal().cwiseMax(floor);
     const Vector6d step = damped.ldlt().solve(-model.gradient);
     if (!step.allFinite()) return false;
     const double promised = -step.dot(2.0 * model.gradient + model.information * step);
@@ -61,8 +66,7 @@ Matrix6d covariance_of(const Matrix6d& information) {
 }  // namespace
 
 PoseSolverResult solve_pose(const ReprojectionCamera& camera, const SE3& start_cam_from_world,
-                            std::span<const PoseObservation> observations,
-                            const PoseSolverOptions& options) {
+                            std::span<const PoseObservation> observations, const PoseSolverOptions& options) {
   PoseSolverResult result;
   result.cam_from_world = start_cam_from_world;
   result.outlier.assign(observations.size(), 1);

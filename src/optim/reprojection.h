@@ -10,17 +10,22 @@ namespace cpslam {
 /// A point nearer to the camera plane than this, or behind it, is not visible (m).
 inline constexpr double kMinDepthM = 0.01;
 
-/// 1 / z and minus its derivative. Below kMinDepthM the tangent goes on, so that the residuals stay finite, have a
-/// continuous gradient, and push a point that a trial step threw behind the camera back to the front.
+/// 1 / z and minus its derivative. Below kMinDepthM the tangent goes on, so that the residuals stay finite,
+/// have a continuous gradient, and push a point that a trial step threw behind the camera back to the front.
+/// Scalar: double, or several of them in a vector of the compiler.
+template <typename Scalar>
 struct InverseDepth {
-  double value = 0.0;
-  double minus_slope = 0.0;
+  Scalar value;
+  Scalar minus_slope;
 };
-[[nodiscard]] inline InverseDepth inverse_depth(double z) {
+template <typename Scalar>
+[[nodiscard]] inline InverseDepth<Scalar> inverse_depth(const Scalar& z) {
   constexpr double kLimit = 1.0 / kMinDepthM;
-  const double inverse = 1.0 / z;
-  const bool visible = z > kMinDepthM;
-  return {visible ? inverse : kLimit * (2.0 - kLimit * z), visible ? inverse * inverse : kLimit * kLimit};
+  const Scalar inverse = 1.0 / z;
+  const Scalar tangent = kLimit * (2.0 - kLimit * z);
+  const Scalar tangent_slope = Scalar{} + kLimit * kLimit;
+  const auto visible = z > kMinDepthM;
+  return {visible ? inverse : tangent, visible ? inverse * inverse : tangent_slope};
 }
 
 /// Whitened residuals [u, v, disparity] of one observation (no unit); the third is 0 without depth.
@@ -31,8 +36,7 @@ struct InverseDepth {
   Eigen::Vector3d error;
   error.x() = (seen.uv.x() - camera.cx - camera.fx * point_in_cam.x() * inverse) / seen.sigma_px;
   error.y() = (seen.uv.y() - camera.cy - camera.fy * point_in_cam.y() * inverse) / seen.sigma_px;
-  error.z() =
-      seen.has_depth() ? (seen.uv.x() - seen.right - camera.bf * inverse) / seen.sigma_right_px : 0.0;
+  error.z() = seen.has_depth() ? (seen.uv.x() - seen.right - camera.bf * inverse) / seen.sigma_right_px : 0.0;
   return error;
 }
 

@@ -6,9 +6,9 @@
 
 namespace cpslam {
 
-/// Whitened reprojection error of one observation, analytic Jacobians. Two rows: monocular; three: with depth.
-/// Parameter blocks: a pose of PoseManifold (lifted Jacobian) and a point in the world (m). Keeps references to
-/// the camera and the observation: both must outlive it.
+/// Whitened reprojection error of one observation, analytic Jacobians. Two rows: monocular; three: with
+/// depth. Parameter blocks: a pose of PoseManifold (lifted Jacobian) and a point in the world (m). Keeps
+/// references to the camera and the observation: both must outlive it.
 template <int kRows>
 class ReprojectionCost final : public ceres::SizedCostFunction<kRows, PoseManifold::kAmbient, 3> {
  public:

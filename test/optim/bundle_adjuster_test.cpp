@@ -13,7 +13,9 @@
 namespace cpslam {
 namespace {
 
-double distance(const SE3& a, const SE3& b) { return (a * b.inverse()).log().norm(); }
+double distance(const SE3& a, const SE3& b) {
+  return (a * b.inverse()).log().norm();
+}
 
 double worst_pose(const BundleProblem& a, const BundleProblem& b) {
   double worst = 0.0;
@@ -69,7 +71,8 @@ TEST(BundleAdjuster, ReachesTheNoiseFloor) {
   BundleProblem truth = scene.truth;
   const double cost_of_truth = adjust_bundle(truth, {}).initial_cost;
   EXPECT_GT(result.initial_cost, 10.0 * cost_of_truth);
-  EXPECT_LT(result.final_cost, cost_of_truth) << "a fit follows the noise a little, so it lies below the truth";
+  EXPECT_LT(result.final_cost, cost_of_truth)
+      << "a fit follows the noise a little, so it lies below the truth";
   EXPECT_GT(result.final_cost, 0.4 * cost_of_truth);
   EXPECT_LT(worst_pose(scene.start, scene.truth), 0.01);
   const auto outliers = std::count(result.outlier.begin(), result.outlier.end(), 1);

@@ -23,13 +23,17 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 constexpr double kTenDegrees = 10.0 * std::numbers::pi / 180.0;
 
-SE3 random_pose(Random& random) { return SE3::exp(scenes::random_twist(1.5, random.uniform(0.0, 3.0), random)); }
+SE3 random_pose(Random& random) {
+  return SE3::exp(scenes::random_twist(1.5, random.uniform(0.0, 3.0), random));
+}
 
 SE3 disturbed(const SE3& pose, double translation_m, double rotation_rad, Random& random) {
   return SE3::exp(scenes::random_twist(translation_m, rotation_rad, random)) * pose;
 }
 
-double distance(const SE3& a, const SE3& b) { return (a * b.inverse()).log().norm(); }
+double distance(const SE3& a, const SE3& b) {
+  return (a * b.inverse()).log().norm();
+}
 
 bool finite(const PoseSolverResult& result) {
   return result.cam_from_world.rotation.allFinite() && result.cam_from_world.translation.allFinite() &&
@@ -73,7 +77,8 @@ TEST(PoseEquations, AreTheSumsOfTheJacobiansWrittenOutPlainly) {
   Random random(31);
   const SE3 pose = random_pose(random);
   auto observations = scenes::frame(pose, 21, 0.5, 3.0, random);
-  observations[3].point_in_world = pose.inverse() * Eigen::Vector3d(0.1, 0.2, 0.005);  // at the camera's plane
+  observations[3].point_in_world =
+      pose.inverse() * Eigen::Vector3d(0.1, 0.2, 0.005);  // at the camera's plane
   for (const bool robust : {false, true}) {
     PoseEquations equations(scenes::camera(), observations);
     equations.select(pose, false);
@@ -236,7 +241,7 @@ TEST(PoseSolver, SingularScenesStayFiniteAndSayHowLittleTheyKnow) {
   scenes_in_cam.push_back(std::vector<Eigen::Vector3d>(20, {0.3, -0.2, 2.0}));  // one point
   scenes_in_cam.push_back(std::vector<Eigen::Vector3d>(20, {0.0, 0.0, 2.0}));   // on the optical axis
   scenes_in_cam.emplace_back();                                                 // on a line
-  scenes_in_cam.emplace_back();                                                 // on a line through the camera
+  scenes_in_cam.emplace_back();  // on a line through the camera
   for (int i = 0; i < 20; ++i) {
     scenes_in_cam[2].emplace_back(-0.5 + 0.05 * i, 0.1, 2.0);
     scenes_in_cam[3].emplace_back(Eigen::Vector3d(0.1, 0.2, 1.0) * (0.5 + 0.1 * i));

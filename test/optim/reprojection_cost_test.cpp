@@ -10,7 +10,8 @@ namespace {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-/// Residuals after the pose moves by exp(twist) and the point by the offset, through the manifold as Ceres does it.
+/// Residuals after the pose moves by exp(twist) and the point by the offset, through the manifold as Ceres
+/// does it.
 template <int kRows>
 Eigen::Matrix<double, kRows, 1> residuals_at(const ReprojectionCost<kRows>& cost, const double* pose,
                                              const Eigen::Vector3d& point, const Vector6d& twist) {
@@ -54,10 +55,9 @@ void expect_jacobians_match(const Eigen::Vector3d& point_in_cam, Random& random)
   Eigen::Matrix<double, kRows, 3> numeric_by_point;
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d offset = h * Eigen::Vector3d::Unit(i);
-    numeric_by_point.col(i) =
-        (residuals_at<kRows>(cost, pose.data(), point + offset, Vector6d::Zero()) -
-         residuals_at<kRows>(cost, pose.data(), point - offset, Vector6d::Zero())) /
-        (2.0 * h);
+    numeric_by_point.col(i) = (residuals_at<kRows>(cost, pose.data(), point + offset, Vector6d::Zero()) -
+                               residuals_at<kRows>(cost, pose.data(), point - offset, Vector6d::Zero())) /
+                              (2.0 * h);
   }
   const double tolerance = 1e-6 * numeric_by_pose.cwiseAbs().maxCoeff() + 1e-5;
   EXPECT_LT((numeric_by_pose - by_pose.template leftCols<6>()).cwiseAbs().maxCoeff(), tolerance);
@@ -108,8 +108,8 @@ TEST(ReprojectionCost, ResidualsAreThoseOfAPinholeWorkedByHand) {
 }
 
 TEST(InverseDepth, IsContinuousWithItsSlopeAndFallsEverywhere) {
-  const InverseDepth above = inverse_depth(kMinDepthM * (1.0 + 1e-9));
-  const InverseDepth below = inverse_depth(kMinDepthM * (1.0 - 1e-9));
+  const auto above = inverse_depth(kMinDepthM * (1.0 + 1e-9));
+  const auto below = inverse_depth(kMinDepthM * (1.0 - 1e-9));
   EXPECT_NEAR(above.value / below.value, 1.0, 1e-8);
   EXPECT_NEAR(above.minus_slope / below.minus_slope, 1.0, 1e-8);
   double last = inverse_depth(-10.0).value;

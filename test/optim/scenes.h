@@ -9,7 +9,9 @@
 /// Made-up scenes with known truth, for the tests and the benchmark of src/optim.
 namespace cpslam::scenes {
 
-inline ReprojectionCamera camera() { return {525.0, 520.0, 319.5, 239.5, 40.0}; }
+inline ReprojectionCamera camera() {
+  return {525.0, 520.0, 319.5, 239.5, 40.0};
+}
 
 inline Eigen::Matrix<double, 6, 1> random_twist(double translation_m, double rotation_rad, Random& random) {
   Eigen::Matrix<double, 6, 1> twist;

@@ -23,8 +23,8 @@ struct OrbFeatures {
   std::vector<Descriptor> descriptors;  ///< parallel to keypoints
 };
 
-/// ORB features (Rublee et al. 2011) spread evenly by cells and a quadtree (Mur-Artal et al. 2015), compatible
-/// with public ORB vocabularies. Holds its working memory between calls: one extractor per thread.
+/// ORB features (Rublee et al. 2011) spread evenly by cells and a quadtree (Mur-Artal et al. 2015),
+/// compatible with public ORB vocabularies. Holds its working memory between calls: one extractor per thread.
 class OrbExtractor {
  public:
   explicit OrbExtractor(const OrbSettings& settings);

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "camera/pinhole_camera.h"
+#include "cpslam/settings.h"
+#include "features/descriptor.h"
+#include "features/keypoint.h"
+#include "features/keypoint_grid.h"
+#include "features/orb_extractor.h"
+
+namespace cpslam {
+
+/// What a frame's images say, computed once and then shared, unchanged, between the frame and its keyframe.
+/// The vectors are parallel. A const FrameFeatures may be read from several threads.
+struct FrameFeatures {
+  std::vector<Keypoint> keypoints;  ///< undistorted px
+  std::vector<Descriptor> descriptors;
+  std::vector<float> depth_m;        ///< along z; 0 where there is none
+  std::vector<float> right_u;        ///< x - bf / depth (PinholeCamera::virtual_right), px; -1 without depth
+  std::vector<float> depth_sigma_m;  ///< standard deviation of depth_m; 0 without depth
+  KeypointGrid grid;                 ///< over keypoints
+
+  [[nodiscard]] int size() const { return static_cast<int>(keypoints.size()); }
+};
+
+/// Makes FrameFeatures of images. Keeps working memory between calls: one builder per thread.
+class FrameFeaturesBuilder {
+ public:
+  FrameFeaturesBuilder(const CameraSettings& camera, const OrbSettings& orb);
+
+  /// grey: 8-bit, of the camera's size. depth: registered to it, of the same size, CV_16UC1 or CV_32FC1 in
+  /// units of DepthMapFactor; 0, negative and not finite mean no reading. Throws InputError on another type
+  /// or size. A point's right_u may be negative where it has depth: ask depth_m whether there is one.
+  [[nodiscard]] std::shared_ptr<const FrameFeatures> build(const cv::Mat& grey, const cv::Mat& depth);
+
+ private:
+  void check(const cv::Mat& grey, const cv::Mat& depth) const;
+  void add_keypoint(const OrbKeypoint& found, const cv::Mat& depth, FrameFeatures& features) const;
+
+  PinholeCamera camera_;
+  double metres_per_unit_;
+  OrbExtractor extractor_;
+  OrbFeatures found_;
+};
+
+}  // namespace cpslam

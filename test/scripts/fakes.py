@@ -84,14 +84,3 @@ def sequence_folder(tmp_path, name, *markers):
     for marker in markers:
         (folder / marker).touch()
     return folder
-
-
-def without_program(folder, *names):
-    """PATH entries with every program of the system but the named ones, as links in folder."""
-    folder.mkdir()
-    for directory in ("/usr/bin", "/bin"):
-        for name in os.listdir(directory):
-            link = folder / name
-            if name not in names and not link.is_symlink():
-                link.symlink_to(os.path.join(directory, name))
-    return str(folder)

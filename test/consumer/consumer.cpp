@@ -35,7 +35,9 @@ cv::Mat painted_wall() {
     const int height = 6 + static_cast<int>(random() % 40U);
     const int x = static_cast<int>(random() % static_cast<unsigned>(wall.cols - width));
     const int y = static_cast<int>(random() % static_cast<unsigned>(wall.rows - height));
-    wall(cv::Rect(x, y, width, height)).setTo(cv::Scalar(random() % 256U, random() % 256U, random() % 256U));
+    const cv::Scalar colour(static_cast<double>(random() % 256U), static_cast<double>(random() % 256U),
+                            static_cast<double>(random() % 256U));
+    wall(cv::Rect(x, y, width, height)).setTo(colour);
   }
   return wall;
 }

@@ -88,8 +88,8 @@ def test_ctrl_c_keeps_what_is_there(tmp_path):
     assert process.stderr.readline().startswith("[accuracy 1/2")
     # The first line of progress is printed before the second run starts: give that a moment.
     time.sleep(0.5)
-    # As a terminal does: to the whole group, which is the benchmark's own because of start_new_session. Not with the
-    # program kill: procps reads "kill -INT -GROUP" as "every process of the machine".
+    # As a terminal does: to the whole group, which is the benchmark's own because of start_new_session. Never with the
+    # program kill: without "--", procps takes the group's minus sign for an option and signals every process there is.
     os.killpg(process.pid, signal.SIGINT)
     stdout, stderr = process.communicate(timeout=30)
     assert process.returncode == 1 and "interrupted" in stderr

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <opencv2/core.hpp>
 #include <memory>
+#include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
@@ -13,16 +13,17 @@ namespace cpslam {
 struct RgbdImages {
   double time_s = 0.0;
   cv::Mat colour;  ///< CV_8UC3 (B,G,R) or CV_8UC1
-  cv::Mat depth;   ///< CV_16UC1 or CV_32FC1, in units of DepthMapFactor
+  cv::Mat depth;   ///< CV_16UC1 (PNG) or CV_32FC1 (TIFF), in units of DepthMapFactor
   std::string error;
 };
 
-/// Decodes one pair; never throws for bad files (missing, truncated, not an image, wrong type, differing sizes):
-/// the error comes back in the result, so that a bad file costs one frame and not the run.
+/// Decodes one pair from PNG, JPEG or TIFF files; never throws for bad files (missing, truncated, not an
+/// image, wrong type, differing sizes): the error comes back in the result, so that a bad file costs one
+/// frame and not the run.
 [[nodiscard]] RgbdImages read_rgbd(const RgbdEntry& entry);
 
 /// Decodes a list of pairs ahead of the reader in a thread of its own, so that decoding is not part of the
-/// tracking time. next() and skip() from one thread.
+/// tracking time. At most `capacity` pairs (at least 1) wait in memory. next() from one thread.
 class ReadAhead {
  public:
   ReadAhead(std::vector<RgbdEntry> entries, std::size_t capacity);

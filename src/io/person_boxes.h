@@ -19,8 +19,8 @@ struct StampedBoxes {
   std::vector<PersonBox> boxes;
 };
 
-/// Writes person_boxes.txt: "timestamp x y width height confidence", one box a line; frames without a person have
-/// no line. Through a temporary file that is renamed. Throws RunError naming the file.
+/// Writes person_boxes.txt: "timestamp x y width height confidence", one box a line; frames without a person
+/// have no line. Through a temporary file that is renamed. Throws RunError naming the file.
 void write_person_boxes(const std::string& path, const std::vector<StampedBoxes>& frames);
 
 /// Reads such a file, frames in the order of their stamps. Throws InputError naming file and line.

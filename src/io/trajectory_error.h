@@ -15,8 +15,8 @@ struct TrajectoryError {
   double max_m = 0.0;
 };
 
-/// ATE of the TUM benchmark (Sturm et al. 2012): stamps associated one-to-one within max_difference_s, closest
-/// first; rigid alignment without scale. Fewer than three pairs give pairs as found and zeros.
+/// ATE of the TUM benchmark (Sturm et al. 2012): stamps associated one-to-one within max_difference_s,
+/// closest first; rigid alignment without scale. Fewer than three pairs give pairs as found and zeros.
 [[nodiscard]] TrajectoryError absolute_trajectory_error(const Trajectory& truth, const Trajectory& estimate,
                                                         double max_difference_s = 0.02);
 

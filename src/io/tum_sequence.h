@@ -7,18 +7,20 @@ namespace cpslam {
 
 /// One colour-depth pair of a TUM-format sequence.
 struct RgbdEntry {
-  double time_s = 0.0;        ///< stamp of the colour image; every output carries this one
+  double time_s = 0.0;  ///< stamp of the colour image; every output carries this one
   double depth_time_s = 0.0;
-  std::string colour_path;    ///< absolute or relative to the working directory, ready to open
+  std::string colour_path;  ///< absolute or relative to the working directory, ready to open
   std::string depth_path;
 };
 
-/// Pairs the sequence's rgb.txt and depth.txt: one-to-one, closest pairs first, at most max_difference_s apart.
-/// Throws InputError naming file and line for a missing, empty, malformed or unsorted list (NaN and repeated
-/// stamps included), and when no pair is found.
-[[nodiscard]] std::vector<RgbdEntry> associate_sequence(const std::string& sequence_dir, double max_difference_s = 0.02);
+/// Pairs the sequence's rgb.txt and depth.txt: one-to-one, closest pairs first, less than max_difference_s
+/// apart. Throws InputError naming file and line for a missing, empty, malformed or unsorted list (NaN and
+/// repeated stamps included), and when no pair is found.
+[[nodiscard]] std::vector<RgbdEntry> associate_sequence(const std::string& sequence_dir,
+                                                        double max_difference_s = 0.02);
 
 /// Reads an associations file of associate.py ("time rgb_path time depth_path" a line). Errors as above.
-[[nodiscard]] std::vector<RgbdEntry> read_associations(const std::string& sequence_dir, const std::string& associations_path);
+[[nodiscard]] std::vector<RgbdEntry> read_associations(const std::string& sequence_dir,
+                                                       const std::string& associations_path);
 
 }  // namespace cpslam

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace cpslam {
+
+/// Writes a whole file through a temporary one beside it ("<path>.partial") that is renamed, so that a full
+/// disk or a crash leaves either the old or the new file. What exists and is no regular file (a device, a
+/// pipe) is written to directly, a symbolic link stays one. Throws RunError naming the file and the cause.
+void write_file_atomically(const std::string& path, std::string_view content);
+
+}  // namespace cpslam

@@ -1,6 +1,8 @@
 #include "optim/pose_equations.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "optim/reprojection.h"
 
@@ -19,8 +21,16 @@ bool sensible(const PoseObservation& observation) {
   const Eigen::Vector3d& point = observation.point_in_world;
   const bool pixel = sensible(point.x()) && sensible(point.y()) && sensible(point.z()) &&
                      sensible(seen.uv.x()) && sensible(seen.uv.y()) && seen.sigma_px > 1.0 / kMaxMagnitude;
-  return pixel && !std::isnan(seen.right) &&
-         (!seen.has_depth() || (sensible(seen.right) && seen.sigma_right_px > 1.0 / kMaxMagnitude));
+  return pixel && !std::isnan(seen.disparity) &&
+         (!seen.has_depth() || (sensible(seen.disparity) && seen.sigma_disparity_px > 1.0 / kMaxMagnitude));
+}
+
+/// As long as most observations are right, the median tells how far the residuals of a pose that has not
+/// settled yet are blown up. 3 leaves the gate as it is when the residuals are what the sigmas promise.
+double relaxed_limit(std::vector<double> chi2_per_gate) {
+  const auto middle = chi2_per_gate.begin() + static_cast<std::ptrdiff_t>(chi2_per_gate.size() / 2);
+  std::nth_element(chi2_per_gate.begin(), middle, chi2_per_gate.end());
+  return std::isfinite(*middle) ? 3.0 * *middle : 1.0;
 }
 
 }  // namespace
@@ -63,8 +73,8 @@ PoseEquations::PoseEquations(const ReprojectionCamera& camera, std::span<const P
     pair.u[lane] = seen.uv.x() - camera.cx;
     pair.v[lane] = seen.uv.y() - camera.cy;
     pair.per_sigma[lane] = 1.0 / seen.sigma_px;
-    pair.disparity[lane] = seen.has_depth() ? seen.uv.x() - seen.right : 0.0;
-    pair.per_sigma_depth[lane] = seen.has_depth() ? 1.0 / seen.sigma_right_px : 0.0;
+    pair.disparity[lane] = seen.has_depth() ? seen.disparity : 0.0;
+    pair.per_sigma_depth[lane] = seen.has_depth() ? 1.0 / seen.sigma_disparity_px : 0.0;
     pair.gate[lane] = chi2_gate(seen);
   }
 }
@@ -143,23 +153,37 @@ PoseModel PoseEquations::linearize(const SE3& cam_from_world, bool robust) const
   return sums.collect();
 }
 
-PoseEquations::Selection PoseEquations::select(const SE3& cam_from_world, bool gated) {
-  Selection selection;
+/// Chi-square over its gate of every observation; infinite when invalid or not in front of the camera.
+std::vector<double> PoseEquations::chi2_per_gate(const SE3& cam_from_world) const {
+  std::vector<double> ratios(valid_.size(), std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < valid_.size(); ++i) {
-    Pair& pair = pairs_[i / 2];
+    const Pair& pair = pairs_[i / 2];
     const std::size_t lane = i % 2;
     const Eigen::Vector3d p = cam_from_world * Eigen::Vector3d(pair.x[lane], pair.y[lane], pair.z[lane]);
-    const double inverse = inverse_depth(p.z()).value;
+    if (valid_[i] == 0 || p.z() <= kMinDepthM) continue;
+    const double inverse = 1.0 / p.z();
     const double eu = (pair.u[lane] - camera_.fx * p.x() * inverse) * pair.per_sigma[lane];
     const double ev = (pair.v[lane] - camera_.fy * p.y() * inverse) * pair.per_sigma[lane];
     const double ed = (pair.disparity[lane] - camera_.bf * inverse) * pair.per_sigma_depth[lane];
-    const double chi2 = eu * eu + ev * ev + ed * ed;
-    const bool chosen = valid_[i] != 0 && p.z() > kMinDepthM && (!gated || chi2 <= pair.gate[lane]);
+    ratios[i] = (eu * eu + ev * ev + ed * ed) / pair.gate[lane];
+  }
+  return ratios;
+}
+
+PoseEquations::Selection PoseEquations::select(const SE3& cam_from_world, Gate gate) {
+  const std::vector<double> ratios = chi2_per_gate(cam_from_world);
+  double limit = std::numeric_limits<double>::max();
+  if (gate != Gate::kNone) limit = 1.0;
+  if (gate == Gate::kRelaxed && !ratios.empty()) limit = std::max(1.0, relaxed_limit(ratios));
+  Selection selection;
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    const bool chosen = ratios[i] <= limit;
     selection.changed = selection.changed || chosen != active(i);
-    pair.active[lane] = chosen ? 1.0 : 0.0;
+    Pair& pair = pairs_[i / 2];
+    pair.active[i % 2] = chosen ? 1.0 : 0.0;
     if (!chosen) continue;
     ++selection.n_active;
-    selection.chi2 += chi2;
+    selection.chi2 += ratios[i] * pair.gate[i % 2];
   }
   return selection;
 }

@@ -26,14 +26,18 @@ class PoseEquations {
   /// Sum over the active observations, with Huber weights if robust.
   [[nodiscard]] PoseModel linearize(const SE3& cam_from_world, bool robust) const;
 
-  /// Makes exactly those observations active that lie in front of the camera and, if gated, within the 95 %
-  /// gate.
+  enum class Gate {
+    kNone,     ///< all in front of the camera
+    kRelaxed,  ///< within the 95 % gate, widened by as much as the median says that the pose is still off
+    kExact,    ///< within the 95 % gate
+  };
+  /// Makes exactly those observations active that lie in front of the camera and within the gate.
   struct Selection {
     int n_active = 0;
     double chi2 = 0.0;  ///< sum over the active ones
     bool changed = false;
   };
-  Selection select(const SE3& cam_from_world, bool gated);
+  Selection select(const SE3& cam_from_world, Gate gate);
 
   [[nodiscard]] bool active(std::size_t i) const { return pairs_[i / 2].active[i % 2] != 0.0; }
 
@@ -52,6 +56,7 @@ class PoseEquations {
     Two active{};                        ///< 1 or 0
   };
 
+  [[nodiscard]] std::vector<double> chi2_per_gate(const SE3& cam_from_world) const;
   void add(const Pair& pair, const SE3& cam_from_world, bool robust, Sums& sums) const;
 
   ReprojectionCamera camera_;

@@ -13,10 +13,14 @@ namespace {
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
+using Gate = PoseEquations::Gate;
+
 constexpr int kMinObservations = 3;
-/// A step that promises less than this in chi-square lies within 0.3 % of a standard deviation of the
+/// A step that promises less than this in chi-square starts within 0.3 % of a standard deviation of the
 /// optimum.
 constexpr double kNegligibleChi2 = 1e-5;
+/// The rounds with the kernel only prepare the others: 10 %.
+constexpr double kNegligibleChi2Robust = 1e-2;
 constexpr double kStartDamping = 1e-5;
 constexpr double kMinDamping = 1e-9;
 constexpr double kRejectedDamping = 1e-3;
@@ -31,6 +35,7 @@ constexpr double kSingular = 1e-12;
 /// Levenberg-Marquardt (Marquardt 1963) from the given pose, which only ever moves downhill. True: converged.
 bool descend(const PoseEquations& equations, bool robust, int max_iterations, SE3& cam_from_world) {
   PoseModel model = equations.linearize(cam_from_world, robust);
+  const double negligible = robust ? kNegligibleChi2Robust : kNegligibleChi2;
   double damping = kStartDamping;
   for (int iteration = 0; iteration < max_iterations && damping < kMaxDamping; ++iteration) {
     Matrix6d damped = model.information;
@@ -49,7 +54,7 @@ bool descend(const PoseEquations& equations, bool robust, int max_iterations, SE
     } else {
       damping = std::max(10.0 * damping, kRejectedDamping);
     }
-    if (promised < kNegligibleChi2) return true;
+    if (promised < negligible) return true;
   }
   return false;
 }
@@ -73,7 +78,7 @@ PoseSolverResult solve_pose(const ReprojectionCamera& camera, const SE3& start_c
   result.covariance = kUnknownPoseVariance * Matrix6d::Identity();
 
   PoseEquations equations(camera, observations);
-  PoseEquations::Selection selection = equations.select(start_cam_from_world, false);
+  PoseEquations::Selection selection = equations.select(start_cam_from_world, Gate::kNone);
   if (selection.n_active < kMinObservations) return result;
 
   bool settled = false;  // the last round converged, with the kernel that the next one would have
@@ -82,7 +87,7 @@ PoseSolverResult solve_pose(const ReprojectionCamera& camera, const SE3& start_c
     if (round == options.rounds - kRoundsWithoutKernel) settled = false;
     if (settled && !selection.changed) continue;
     settled = descend(equations, robust, options.iterations_per_round, result.cam_from_world);
-    selection = equations.select(result.cam_from_world, true);
+    selection = equations.select(result.cam_from_world, robust ? Gate::kRelaxed : Gate::kExact);
   }
   result.cam_from_world = result.cam_from_world.normalized();
   result.n_inliers = selection.n_active;

@@ -22,8 +22,8 @@ inline constexpr int kRoundsWithoutKernel = 2;
 inline constexpr double kUnknownPoseVariance = 1e6;
 
 struct PoseSolverOptions {
-  int rounds = 4;  ///< each re-decides all outliers; the last two run without the robust kernel
-  int iterations_per_round = 10;  ///< at most; a round ends when the step is negligible
+  int rounds = 4;  ///< each re-decides all outliers, the robust ones with a gate that follows the median
+  int iterations_per_round = 20;  ///< at most; a round ends when the step is negligible
 };
 
 struct PoseSolverResult {

@@ -36,7 +36,7 @@ template <typename Scalar>
   Eigen::Vector3d error;
   error.x() = (seen.uv.x() - camera.cx - camera.fx * point_in_cam.x() * inverse) / seen.sigma_px;
   error.y() = (seen.uv.y() - camera.cy - camera.fy * point_in_cam.y() * inverse) / seen.sigma_px;
-  error.z() = seen.has_depth() ? (seen.uv.x() - seen.right - camera.bf * inverse) / seen.sigma_right_px : 0.0;
+  error.z() = seen.has_depth() ? (seen.disparity - camera.bf * inverse) / seen.sigma_disparity_px : 0.0;
   return error;
 }
 
@@ -47,7 +47,7 @@ template <typename Scalar>
   const auto [inverse, minus_slope] = inverse_depth(point_in_cam.z());
   const double gain_u = -camera.fx / seen.sigma_px;
   const double gain_v = -camera.fy / seen.sigma_px;
-  const double gain_depth = seen.has_depth() ? camera.bf / seen.sigma_right_px : 0.0;
+  const double gain_depth = seen.has_depth() ? camera.bf / seen.sigma_disparity_px : 0.0;
   Eigen::Matrix3d jacobian;
   jacobian << gain_u * inverse, 0.0, -gain_u * point_in_cam.x() * minus_slope,  //
       0.0, gain_v * inverse, -gain_v * point_in_cam.y() * minus_slope,          //

@@ -133,7 +133,7 @@ TEST(BundleAdjuster, FindsTheWrongObservations) {
   for (std::size_t i = 0; i < expected.size(); i += 23) {
     PointObservation& seen = scene.start.observations[i].seen;
     seen.uv += Eigen::Vector2d(random.uniform(40.0, 90.0), random.uniform(-90.0, -40.0));
-    if (seen.has_depth()) seen.right += 40.0;
+    if (seen.has_depth()) seen.disparity += 40.0;
     expected[i] = 1;
   }
   const BundleResult result = adjust_bundle(scene.start, {});

@@ -30,7 +30,7 @@ void expect_jacobians_match(const Eigen::Vector3d& point_in_cam, Random& random)
   const Eigen::Vector3d point = cam_from_world.inverse() * point_in_cam;
   const ReprojectionCamera camera = scenes::camera();
   PointObservation seen = scenes::observe(scenes::visible_point(random), false, 1.0, random);
-  if (kRows == 3) seen.right = random.uniform(0.0, 600.0);
+  if (kRows == 3) seen.disparity = random.uniform(1.0, 100.0);
   const ReprojectionCost<kRows> cost(camera, seen);
 
   std::array<double, 7> pose{};
@@ -92,9 +92,9 @@ TEST(ReprojectionCost, ResidualsAreThoseOfAPinholeWorkedByHand) {
   const ReprojectionCamera camera{100.0, 100.0, 260.0, 240.0, 40.0};
   PointObservation seen;
   seen.uv = {312.0, 214.0};
-  seen.right = 289.0;
+  seen.disparity = 23.0;
   seen.sigma_px = 2.0;
-  seen.sigma_right_px = 0.5;
+  seen.sigma_disparity_px = 0.5;
   const DepthCost cost(camera, seen);
   std::array<double, 7> pose{};
   write_pose_block(SE3(Eigen::Matrix3d::Identity(), {0.0, 0.0, 1.0}), pose.data());

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include <vector>
 
 #include "optim/bundle_adjuster.h"
@@ -26,12 +28,11 @@ inline PointObservation observe(const Eigen::Vector3d& p, bool depth, double noi
   const ReprojectionCamera c = camera();
   PointObservation seen;
   seen.sigma_px = random.uniform(0.8, 2.0);
-  seen.sigma_right_px = random.uniform(0.3, 1.0);
+  seen.sigma_disparity_px = random.uniform(0.3, 1.0);
   seen.uv.x() = c.fx * p.x() / p.z() + c.cx + noise_scale * seen.sigma_px * random.normal();
   seen.uv.y() = c.fy * p.y() / p.z() + c.cy + noise_scale * seen.sigma_px * random.normal();
   if (depth) {
-    seen.right = seen.uv.x() - c.bf / p.z() + noise_scale * seen.sigma_right_px * random.normal();
-    if (seen.right < 0.0) seen.right = -1.0;
+    seen.disparity = std::max(0.0, c.bf / p.z() + noise_scale * seen.sigma_disparity_px * random.normal());
   }
   return seen;
 }

@@ -1,0 +1,48 @@
+#include "rgbd_tum_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace cpslam::program {
+
+RgbdTumOptions parse_command_line(int argc, char** argv, std::optional<int>& exit_code) {
+  RgbdTumOptions options;
+  std::string detector = "none";
+  CLI::App app{
+      "Tracks an RGB-D sequence in TUM format (TUM RGB-D, Bonn RGB-D Dynamic, simulate_tum) and writes\n"
+      "CameraTrajectory.txt, KeyFrameTrajectory.txt and stats.json.\n\n"
+      "Example: rgbd_tum - Examples/RGB-D/TUM1.yaml ~/rgbd_dataset_freiburg1_desk --output results"};
+  app.add_option("VOCABULARY", options.vocabulary,
+                 "ORB vocabulary, or - for the bundled one. This version does not recognise places yet: the file is\n"
+                 "accepted and not read")
+      ->required();
+  app.add_option("SETTINGS", options.settings, "Camera and feature settings (ORB-SLAM2's format)")->required();
+  app.add_option("SEQUENCE", options.sequence, "Folder with rgb.txt, depth.txt and the images")->required();
+  app.add_option("ASSOCIATIONS", options.associations,
+                 "Colour-depth pairs as associate.py writes them; left out: rgb.txt and depth.txt are paired here");
+  app.add_option("--output", options.output, "Folder for the results, made when missing")->capture_default_str();
+  app.add_option("--detector", detector, "Person detector; none is the only one in this version")
+      ->check(CLI::IsMember({"none"}))
+      ->capture_default_str();
+  auto* sequential = app.add_flag("--sequential", options.sequential,
+                                  "All stages one after the other: the same result to the bit in every run");
+  app.add_flag("--realtime", options.realtime, "Pace by the time stamps and drop frames when late, like a live camera")
+      ->excludes(sequential);
+  app.add_option("--start", options.start, "First pair of the sequence to use, counted from 0")->capture_default_str();
+  app.add_option("--max-frames", options.max_frames, "How many pairs to use at most; default all")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--seed", options.seed, "Seed of every random draw")->capture_default_str();
+  app.add_flag("--print-settings", options.print_settings, "Print the effective settings and go on");
+  app.add_flag("--quiet", options.quiet, "No progress and no summary; warnings and errors only");
+  app.set_version_flag("--version", "rgbd_tum (CP-SLAM) " CPSLAM_VERSION);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& done) {
+    exit_code = app.exit(done);
+  } catch (const CLI::ParseError& error) {
+    app.exit(error);
+    exit_code = 2;
+  }
+  return options;
+}
+
+}  // namespace cpslam::program

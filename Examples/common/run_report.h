@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "cpslam/settings.h"
+#include "cpslam/types.h"
+#include "io/trajectory_error.h"
+
+namespace cpslam::program {
+
+/// What a run leaves behind besides its trajectories.
+struct RunReport {
+  std::string version;
+  std::string sequence;
+  Settings settings;
+  Statistics statistics;
+  std::size_t frames_in_sequence = 0;
+  std::size_t unreadable = 0;  ///< frames with a bad file or refused by track()
+  std::size_t dropped = 0;     ///< left out to keep up with real time
+  bool interrupted = false;
+  double wall_s = 0.0;
+  double peak_memory_mb = 0.0;
+  std::optional<TrajectoryError> ate;
+};
+
+/// Resident memory of this process at its highest, MB.
+[[nodiscard]] double peak_memory_mb();
+
+[[nodiscard]] std::string to_json(const RunReport& report);
+[[nodiscard]] std::string to_text(const RunReport& report);
+
+}  // namespace cpslam::program

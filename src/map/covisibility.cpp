@@ -1,0 +1,106 @@
+// The covisibility graph and the spanning tree of Map.
+#include <algorithm>
+
+#include "map/map.h"
+
+namespace cpslam {
+namespace {
+
+// Fewer shared points than this make no edge, unless there is no better one (Mur-Artal et al. 2015, III-D).
+constexpr int kMinSharedPoints = 15;
+
+}  // namespace
+
+void Map::update_covisibility(KeyFrameId id) {
+  KeyFrame* keyframe = keyframes_.find(id);
+  if (keyframe == nullptr) return;
+  std::map<KeyFrameId, int> shared;
+  for (const MapPointId point_id : keyframe->points) {
+    const MapPoint* point = points_.find(point_id);
+    if (point == nullptr) continue;
+    for (const Observation& seen : point->observations) {
+      if (seen.keyframe != id) ++shared[seen.keyframe];
+    }
+  }
+  if (shared.empty()) return;
+  const auto best = std::max_element(shared.begin(), shared.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  for (const Covisible& edge : keyframe->covisible) {
+    const auto still = shared.find(edge.keyframe);
+    if (still == shared.end() || still->second < kMinSharedPoints) erase_edge(edge.keyframe, id);
+  }
+  keyframe->covisible.clear();
+  for (const auto& [other, count] : shared) {
+    if (count < kMinSharedPoints && other != best->first) continue;
+    add_edge(id, other, count);
+    add_edge(other, id, count);
+  }
+  const bool is_root = keyframe->sequence == 0;
+  if (!is_root && !keyframe->parent.valid()) {
+    keyframe->parent = best->first;
+    keyframes_.find(best->first)->children.push_back(id);
+  }
+}
+
+void Map::add_edge(KeyFrameId from, KeyFrameId to, int shared_points) {
+  auto& edges = keyframes_.find(from)->covisible;
+  erase_edge(from, to);
+  const auto before = [this](const Covisible& a, const Covisible& b) {
+    if (a.shared_points != b.shared_points) return a.shared_points > b.shared_points;
+    return keyframes_.find(a.keyframe)->sequence < keyframes_.find(b.keyframe)->sequence;
+  };
+  const Covisible edge{to, shared_points};
+  edges.insert(std::lower_bound(edges.begin(), edges.end(), edge, before), edge);
+}
+
+void Map::erase_edge(KeyFrameId from, KeyFrameId to) {
+  std::erase_if(keyframes_.find(from)->covisible, [&](const Covisible& edge) { return edge.keyframe == to; });
+}
+
+void Map::adopt_children(KeyFrameId orphaned_by, const KeyFrame& dead) {
+  // A child goes to the candidate it shares most points with; a child that found a parent is itself a candidate for
+  // the others, which keeps the tree free of cycles. What shares nothing goes to the grandparent.
+  std::vector<KeyFrameId> orphans = dead.children;
+  std::vector<KeyFrameId> candidates{dead.parent};
+  while (!orphans.empty()) {
+    KeyFrameId best_child = orphans.front();
+    KeyFrameId best_parent = dead.parent;
+    int best_shared = -1;
+    for (const KeyFrameId child : orphans) {
+      for (const Covisible& edge : keyframes_.find(child)->covisible) {
+        const bool allowed = std::find(candidates.begin(), candidates.end(), edge.keyframe) != candidates.end();
+        if (edge.keyframe != orphaned_by && allowed && edge.shared_points > best_shared) {
+          best_shared = edge.shared_points;
+          best_child = child;
+          best_parent = edge.keyframe;
+        }
+      }
+    }
+    keyframes_.find(best_child)->parent = best_parent;
+    keyframes_.find(best_parent)->children.push_back(best_child);
+    candidates.push_back(best_child);
+    std::erase(orphans, best_child);
+  }
+}
+
+std::vector<KeyFrameId> Map::best_covisible(KeyFrameId id, std::size_t n) const {
+  std::vector<KeyFrameId> best;
+  if (const KeyFrame* keyframe = keyframes_.find(id)) {
+    for (const Covisible& edge : keyframe->covisible) {
+      if (best.size() == n) break;
+      best.push_back(edge.keyframe);
+    }
+  }
+  return best;
+}
+
+int Map::count_points(KeyFrameId id, std::size_t min_observations) const {
+  const KeyFrame* keyframe = keyframes_.find(id);
+  if (keyframe == nullptr) return 0;
+  return static_cast<int>(std::count_if(keyframe->points.begin(), keyframe->points.end(), [&](MapPointId point_id) {
+    const MapPoint* point = points_.find(point_id);
+    return point != nullptr && point->observations.size() >= min_observations;
+  }));
+}
+
+}  // namespace cpslam

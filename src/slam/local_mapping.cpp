@@ -1,0 +1,48 @@
+#include "slam/local_mapping.h"
+
+#include <mutex>
+
+#include "slam/keyframe_culling.h"
+#include "slam/local_bundle.h"
+#include "slam/point_creation.h"
+#include "slam/point_fusion.h"
+
+namespace cpslam {
+namespace {
+
+void refresh_observed_points(Map& map, KeyFrameId id) {
+  const std::unique_lock lock(map.mutex());
+  const KeyFrame* keyframe = map.keyframe(id);
+  if (keyframe == nullptr) return;
+  for (const MapPointId point : keyframe->points) {
+    if (point.valid()) map.refresh_point(point);
+  }
+}
+
+}  // namespace
+
+void LocalMapping::process(KeyFrameId keyframe, const std::atomic<bool>& abort) {
+  {
+    const auto scope = timer_.time("map: recent points");
+    refresh_observed_points(map_, keyframe);
+    recent_points_.cull(map_, keyframe);
+  }
+  {
+    const auto scope = timer_.time("map: new points");
+    recent_points_.add(create_points(rig_, map_, keyframe));
+  }
+  {
+    const auto scope = timer_.time("map: fusion");
+    fuse_points(rig_, map_, keyframe);
+  }
+  if (abort) return;
+  {
+    const auto scope = timer_.time("map: local bundle adjustment");
+    adjust_local_bundle(rig_, map_, keyframe, abort);
+    ++bundle_adjustments_;
+  }
+  const auto scope = timer_.time("map: keyframe culling");
+  cull_keyframes(rig_, map_, keyframe);
+}
+
+}  // namespace cpslam

@@ -1,0 +1,33 @@
+#include "slam/pose_refinement.h"
+
+#include "optim/pose_solver.h"
+#include "slam/observation_model.h"
+
+namespace cpslam {
+
+RefinedPose refine_pose(const Rig& rig, Frame& frame) {
+  std::vector<PoseObservation> observations;
+  std::vector<std::size_t> keypoints;
+  for (std::size_t i = 0; i < frame.matches.size(); ++i) {
+    if (frame.matches[i].kind == PointMatch::Kind::kNone) continue;
+    observations.push_back({frame.matches[i].position_in_world, observe(rig, *frame.features, static_cast<int>(i))});
+    keypoints.push_back(i);
+  }
+  const PoseSolverResult solved = solve_pose(rig.reprojection, frame.cam_from_world, observations);
+  frame.cam_from_world = solved.cam_from_world;
+  RefinedPose refined;
+  refined.covariance = solved.covariance;
+  for (std::size_t k = 0; k < keypoints.size(); ++k) {
+    PointMatch& match = frame.matches[keypoints[k]];
+    if (solved.outlier[k] != 0) {
+      match = {};
+    } else if (match.kind == PointMatch::Kind::kMapPoint) {
+      ++refined.map_points;
+    } else {
+      ++refined.temporary_points;
+    }
+  }
+  return refined;
+}
+
+}  // namespace cpslam

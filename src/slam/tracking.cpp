@@ -1,0 +1,188 @@
+#include "slam/tracking.h"
+
+#include <algorithm>
+#include <mutex>
+#include <shared_mutex>
+#include <string>
+#include <utility>
+
+#include "slam/keyframe_inserter.h"
+#include "slam/motion_tracker.h"
+#include "slam/recovery.h"
+
+namespace cpslam {
+namespace {
+
+// Half search windows around the predicted pose, px at level 0; the wider ones only when the narrower failed.
+constexpr float kMotionWindowsPx[] = {15.0F, 30.0F, 60.0F};
+// A prediction is worth handing out for a third of a second; after that the camera may be anywhere.
+constexpr double kPredictionS = 0.34;
+// Keyframes seen by at least this many views establish a point.
+constexpr std::size_t kEstablishedViews = 2;
+
+}  // namespace
+
+Tracking::Tracking(const Rig& rig, Map& map, StageTimer& timer, Log log)
+    : rig_(rig), map_(map), timer_(timer), log_(std::move(log)), random_(rig.settings.seed) {}
+
+KeyFrameId Tracking::take_keyframe() { return std::exchange(new_keyframe_, KeyFrameId{}); }
+
+TrackResult Tracking::track(double time_s, std::shared_ptr<const FrameFeatures> features, MapperLoad load) {
+  Frame frame;
+  frame.index = n_frames_++;
+  frame.time_s = time_s;
+  frame.matches.resize(static_cast<std::size_t>(features->size()));
+  frame.features = std::move(features);
+  TrackResult result;
+  result.time_s = time_s;
+  result.n_keypoints = frame.features->size();
+  if (state_ == TrackingState::kNotInitialized) {
+    if (!initialize(frame)) return result;
+    result.keyframe = true;
+    finish_tracked(std::move(frame), result);
+  } else if (place(frame)) {
+    count_visible(frame);
+    result.keyframe = should_insert(frame, load);
+    if (result.keyframe) insert(frame);
+    finish_tracked(std::move(frame), result);
+  } else {
+    finish_untracked(frame, result);
+  }
+  return result;
+}
+
+bool Tracking::initialize(Frame& frame) {
+  const auto& depths = frame.features->depth_m;
+  const auto with_depth = std::count_if(depths.begin(), depths.end(), [](float d) { return d > 0.0F; });
+  if (with_depth < rig_.settings.tracking.min_initial_points) return false;
+  insert(frame);
+  inliers_ = static_cast<int>(std::count_if(frame.matches.begin(), frame.matches.end(), [](const PointMatch& m) {
+    return m.kind == PointMatch::Kind::kMapPoint;
+  }));
+  log_.info("map started with " + std::to_string(inliers_) + " points");
+  return true;
+}
+
+bool Tracking::place(Frame& frame) {
+  {
+    // What the mapper did since the last frame moves that frame's points and pose.
+    const auto scope = timer_.time("track: refresh");
+    refresh_matches(map_, last_);
+    const std::shared_lock lock(map_.mutex());
+    if (const auto reference_from_world = map_.cam_from_world(last_reference_)) {
+      last_.cam_from_world = last_from_reference_ * *reference_from_world;
+    }
+  }
+  return place_by_motion(frame) || place_by_recovery(frame);
+}
+
+bool Tracking::place_by_motion(Frame& frame) {
+  for (const float radius_px : kMotionWindowsPx) {
+    {
+      const auto scope = timer_.time("track: motion");
+      frame.cam_from_world = predicted_pose(frame.time_s);
+      if (track_from_last_frame(rig_, last_, radius_px, frame) == 0) continue;
+    }
+    if (match_local_map(frame, 1.0F)) return true;
+  }
+  return false;
+}
+
+bool Tracking::place_by_recovery(Frame& frame) {
+  const auto scope = timer_.time("track: recovery");
+  for (const KeyFrameId keyframe : recovery_candidates(map_, local_map_.reference(), frames_without_pose_)) {
+    if (recover_from_keyframe(rig_, map_, keyframe, random_, frame) == 0) continue;
+    // The rough pose first gathers more points in wide windows, then settles in narrow ones.
+    match_local_map(frame, 3.0F);
+    if (match_local_map(frame, 1.0F)) return true;
+  }
+  return false;
+}
+
+bool Tracking::match_local_map(Frame& frame, float window) {
+  {
+    const auto scope = timer_.time("track: local map update");
+    local_map_.update(map_, frame);
+  }
+  const auto scope = timer_.time("track: local map");
+  LocalMapMatch match = track_local_map(rig_, local_map_, window, frame);
+  expected_ = std::move(match.expected);
+  inliers_ = match.inliers;
+  return inliers_ >= rig_.settings.tracking.min_inliers;
+}
+
+void Tracking::count_visible(const Frame& frame) {
+  const auto scope = timer_.time("track: statistics of points");
+  std::vector<MapPointId> found;
+  for (const PointMatch& match : frame.matches) {
+    if (match.kind == PointMatch::Kind::kMapPoint) found.push_back(match.id);
+  }
+  std::sort(found.begin(), found.end());
+  const std::unique_lock lock(map_.mutex());
+  for (const MapPointId id : expected_) {
+    map_.count_visible(id, std::binary_search(found.begin(), found.end(), id));
+  }
+}
+
+bool Tracking::should_insert(const Frame& frame, MapperLoad load) const {
+  KeyFrameEvidence evidence;
+  evidence.inliers = inliers_;
+  for (std::size_t i = 0; i < frame.matches.size(); ++i) {
+    const double depth_m = frame.features->depth_m[i];
+    if (depth_m <= 0.0 || depth_m > rig_.close_depth_m) continue;
+    const bool tracked = frame.matches[i].kind == PointMatch::Kind::kMapPoint;
+    ++(tracked ? evidence.close_tracked : evidence.close_untracked);
+  }
+  {
+    const std::shared_lock lock(map_.mutex());
+    evidence.reference_points = map_.count_points(local_map_.reference(), kEstablishedViews);
+    evidence.only_one_keyframe = map_.n_keyframes() == 1;
+  }
+  evidence.mapper_load = load;
+  return wants_keyframe(evidence);
+}
+
+void Tracking::insert(Frame& frame) {
+  const auto scope = timer_.time("track: keyframe");
+  new_keyframe_ = insert_keyframe(rig_, map_, frame);
+  local_map_.centre_on(map_, new_keyframe_);
+}
+
+void Tracking::finish_tracked(Frame frame, TrackResult& result) {
+  const bool consecutive = state_ == TrackingState::kTracked && frame.index == last_.index + 1;
+  velocity_ = consecutive ? frame.cam_from_world * last_.cam_from_world.inverse() : SE3();
+  velocity_interval_s_ = consecutive ? frame.time_s - last_.time_s : 0.0;
+  if (state_ == TrackingState::kLost || state_ == TrackingState::kPredicted) {
+    log_.info("tracking found again after " + std::to_string(frames_without_pose_) + " frames");
+  }
+  state_ = TrackingState::kTracked;
+  frames_without_pose_ = 0;
+  last_reference_ = local_map_.reference();
+  last_from_reference_ = frame.cam_from_world * local_map_.reference_from_world().inverse();
+  trajectory_.add(frame.time_s, last_reference_, last_from_reference_);
+  result.state = state_;
+  result.n_inliers = inliers_;
+  result.world_from_camera = to_pose(frame.cam_from_world.inverse());
+  last_ = std::move(frame);
+  add_temporary_points(rig_, last_);
+}
+
+void Tracking::finish_untracked(const Frame& frame, TrackResult& result) {
+  ++frames_without_pose_;
+  const bool predictable = frame.time_s - last_.time_s <= kPredictionS;
+  if (!predictable && state_ != TrackingState::kLost) log_.warning("tracking lost; looking for known keyframes");
+  state_ = predictable ? TrackingState::kPredicted : TrackingState::kLost;
+  result.state = state_;
+  result.n_inliers = 0;
+  if (predictable) result.world_from_camera = to_pose(predicted_pose(frame.time_s).inverse());
+}
+
+SE3 Tracking::predicted_pose(double time_s) const {
+  if (velocity_interval_s_ <= 0.0) return last_.cam_from_world;
+  // Constant velocity, scaled to the time that really passed: frames get dropped.
+  const double steps = (time_s - last_.time_s) / velocity_interval_s_;
+  constexpr double kMaxSteps = 3.0;
+  return SE3::exp(std::min(steps, kMaxSteps) * velocity_.log()) * last_.cam_from_world;
+}
+
+}  // namespace cpslam

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <memory>
+
+#include "cpslam/types.h"
+#include "map/map.h"
+#include "slam/frame.h"
+#include "slam/keyframe_decision.h"
+#include "slam/local_map.h"
+#include "slam/rig.h"
+#include "slam/trajectory_log.h"
+#include "util/log.h"
+#include "util/random.h"
+#include "util/stage_timer.h"
+
+namespace cpslam {
+
+/// Places every frame in the map and decides which become keyframes. One thread.
+class Tracking {
+ public:
+  Tracking(const Rig& rig, Map& map, StageTimer& timer, Log log);
+
+  /// load: what the mapper has to do, as far as it may influence the decision for a keyframe.
+  TrackResult track(double time_s, std::shared_ptr<const FrameFeatures> features, MapperLoad load);
+
+  /// The keyframe that the last call of track() put into the map, for the mapper; invalid when there is none or it was
+  /// taken before.
+  [[nodiscard]] KeyFrameId take_keyframe();
+
+  [[nodiscard]] Trajectory trajectory() const { return trajectory_.resolve(map_); }
+
+ private:
+  bool initialize(Frame& frame);
+  bool place(Frame& frame);
+  bool place_by_motion(Frame& frame);
+  bool place_by_recovery(Frame& frame);
+  bool match_local_map(Frame& frame, float window);
+  void count_visible(const Frame& frame);
+  bool should_insert(const Frame& frame, MapperLoad load) const;
+  void insert(Frame& frame);
+  void finish_tracked(Frame frame, TrackResult& result);
+  void finish_untracked(const Frame& frame, TrackResult& result);
+  [[nodiscard]] SE3 predicted_pose(double time_s) const;
+
+  const Rig& rig_;
+  Map& map_;
+  StageTimer& timer_;
+  Log log_;
+  Random random_;
+
+  TrackingState state_ = TrackingState::kNotInitialized;
+  LocalMap local_map_;
+  std::vector<MapPointId> expected_;  // points of the local map that the frame at hand should show
+  int inliers_ = 0;                   // of the frame at hand
+  Frame last_;                        // the latest frame with a pose of its own
+  KeyFrameId last_reference_;         // keyframe that last_'s pose hangs on
+  SE3 last_from_reference_;
+  SE3 velocity_;                      // last_from_previous, for velocity_interval_s_
+  double velocity_interval_s_ = 0.0;
+  KeyFrameId new_keyframe_;
+  std::uint64_t n_frames_ = 0;
+  std::size_t frames_without_pose_ = 0;
+  TrajectoryLog trajectory_;
+};
+
+}  // namespace cpslam

@@ -29,12 +29,11 @@ PinholeCamera::PinholeCamera(const CameraSettings& s)
     bounds_ = {std::min(bounds_[0], u.x()), std::min(bounds_[1], u.y()), std::max(bounds_[2], u.x()),
                std::max(bounds_[3], u.y())};
   };
-  constexpr int kSteps = 32;
-  for (int i = 0; i <= kSteps; ++i) {
-    const double x = static_cast<double>(width_) * i / kSteps;
-    const double y = static_cast<double>(height_) * i / kSteps;
+  for (int x = 0; x <= width_; ++x) {
     include(x, 0.0);
     include(x, height_);
+  }
+  for (int y = 0; y <= height_; ++y) {
     include(0.0, y);
     include(width_, y);
   }

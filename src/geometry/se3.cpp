@@ -8,14 +8,20 @@ namespace {
 // Below this angle the closed forms lose digits and their Taylor series are exact to double precision.
 constexpr double kSmallAngle = 1e-4;
 
+/// 1 - cos without its cancellation at small angles.
+double one_minus_cos(double angle) {
+  const double sine = std::sin(0.5 * angle);
+  return 2.0 * sine * sine;
+}
+
 /// Left Jacobian of SO(3), the V of exp([v, w]) = (Exp(w), V v).
 Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& w) {
   const double angle = w.norm();
   const Eigen::Matrix3d hat = skew(w);
-  double a = 0.5 - angle * angle / 24.0;        // (1 - cos) / angle^2
+  double a = 0.5 - angle * angle / 24.0;         // (1 - cos) / angle^2
   double b = 1.0 / 6.0 - angle * angle / 120.0;  // (angle - sin) / angle^3
   if (angle > kSmallAngle) {
-    a = (1.0 - std::cos(angle)) / (angle * angle);
+    a = one_minus_cos(angle) / (angle * angle);
     b = (angle - std::sin(angle)) / (angle * angle * angle);
   }
   return Eigen::Matrix3d::Identity() + a * hat + b * hat * hat;
@@ -32,11 +38,11 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
 Eigen::Matrix3d so3_exp(const Eigen::Vector3d& rotation_vector) {
   const double angle = rotation_vector.norm();
   const Eigen::Matrix3d hat = skew(rotation_vector);
-  double a = 1.0 - angle * angle / 6.0;  // sin / angle
+  double a = 1.0 - angle * angle / 6.0;   // sin / angle
   double b = 0.5 - angle * angle / 24.0;  // (1 - cos) / angle^2
   if (angle > kSmallAngle) {
     a = std::sin(angle) / angle;
-    b = (1.0 - std::cos(angle)) / (angle * angle);
+    b = one_minus_cos(angle) / (angle * angle);
   }
   return Eigen::Matrix3d::Identity() + a * hat + b * hat * hat;
 }
@@ -51,7 +57,9 @@ Eigen::Vector3d so3_log(const Eigen::Matrix3d& rotation) {
   return 2.0 * std::atan2(sine, q.w()) / sine * q.vec();
 }
 
-double rotation_angle(const Eigen::Matrix3d& rotation) { return so3_log(rotation).norm(); }
+double rotation_angle(const Eigen::Matrix3d& rotation) {
+  return so3_log(rotation).norm();
+}
 
 SE3 SE3::exp(const Eigen::Matrix<double, 6, 1>& twist) {
   const Eigen::Vector3d w = twist.tail<3>();

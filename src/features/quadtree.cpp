@@ -36,9 +36,11 @@ void Quadtree::make_roots(const cv::Rect& region, std::vector<Corner>& corners) 
   leaves_.clear();
   pending_.clear();
   const int longer = std::max(region.width, region.height);
-  const int n = std::max(
-      1, (longer + std::min(region.width, region.height) / 2) / std::min(region.width, region.height));
-  const float size = static_cast<float>(longer) / static_cast<float>(n);
+  const int shorter = std::min(region.width, region.height);
+  const int n = std::max(1, (longer + shorter / 2) / shorter);
+  // Squares that cover the region both ways: a corner outside them could never be split off.
+  const float size =
+      std::max(static_cast<float>(longer) / static_cast<float>(n), static_cast<float>(shorter));
   const bool wide = region.width >= region.height;
   const auto root_of = [&](const Corner& c) {
     const int along = wide ? c.x - region.x : c.y - region.y;
@@ -79,8 +81,10 @@ void Quadtree::split(const Node& node, std::vector<Corner>& corners) {
   for (std::size_t q = 0; q < 4; ++q) {
     const Node child{q % 2 == 0 ? node.x0 : middle_x, q < 2 ? node.y0 : middle_y, half, start[q],
                      start[q + 1]};
-    if (child.count() == 1) leaves_.push_back(child);
-    if (child.count() > 1) next_.push_back(child);
+    // Corners at the same pixel, which no detector gives, could be split for ever.
+    const bool divisible = child.count() > 1 && half > 0.5F;
+    if (divisible) next_.push_back(child);
+    if (!divisible && child.count() > 0) leaves_.push_back(child);
   }
 }
 

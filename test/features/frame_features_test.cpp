@@ -1,0 +1,116 @@
+#include "features/frame_features.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cpslam/error.h"
+#include "test_images.h"
+
+namespace cpslam {
+namespace {
+
+CameraSettings desk_camera() {
+  CameraSettings s;
+  s.fx = 517.306408;
+  s.fy = 516.469215;
+  s.cx = 318.643040;
+  s.cy = 255.313989;
+  s.k1 = 0.262383;
+  s.k2 = -0.953104;
+  s.p1 = -0.005358;
+  s.p2 = 0.002628;
+  s.k3 = 1.163314;
+  return s;
+}
+
+/// Depth in 1/5000 m: a wall, nearer to the right, with a hole.
+cv::Mat wall_depth() {
+  cv::Mat depth(480, 640, CV_16UC1);
+  for (int y = 0; y < 480; ++y) {
+    for (int x = 0; x < 640; ++x) depth.at<std::uint16_t>(y, x) = static_cast<std::uint16_t>(15000 - 5 * x);
+  }
+  depth(cv::Rect(100, 100, 200, 100)).setTo(0);
+  return depth;
+}
+
+TEST(FrameFeatures, HoldsWhatTheImagesSay) {
+  const CameraSettings settings = desk_camera();
+  const PinholeCamera camera(settings);
+  const cv::Mat grey = test::textured_image(640, 480, 1);
+  const cv::Mat depth = wall_depth();
+  const auto features = FrameFeaturesBuilder(settings, {}).build(grey, depth);
+  OrbFeatures found;
+  OrbExtractor(OrbSettings{}).extract(grey, found);
+
+  ASSERT_EQ(features->size(), static_cast<int>(found.keypoints.size()));
+  ASSERT_EQ(features->depth_m.size(), found.keypoints.size());
+  EXPECT_EQ(features->descriptors, found.descriptors);
+  int n_without = 0;
+  for (std::size_t i = 0; i < found.keypoints.size(); ++i) {
+    const OrbKeypoint& k = found.keypoints[i];
+    const Keypoint& u = features->keypoints[i];
+    const Eigen::Vector2d back = camera.distort({static_cast<double>(u.x), static_cast<double>(u.y)});
+    EXPECT_NEAR(back.x(), static_cast<double>(k.x), 1e-3);
+    EXPECT_NEAR(back.y(), static_cast<double>(k.y), 1e-3);
+    EXPECT_EQ(u.octave, k.octave);
+    EXPECT_EQ(u.angle_deg, k.angle_deg);
+    const std::uint16_t raw =
+        depth.at<std::uint16_t>(static_cast<int>(std::lround(k.y)), static_cast<int>(std::lround(k.x)));
+    if (features->depth_m[i] == 0.0F) {
+      ++n_without;
+      EXPECT_EQ(raw, 0);
+      EXPECT_EQ(features->right_u[i], -1.0F);
+      EXPECT_EQ(features->depth_sigma_m[i], 0.0F);
+      continue;
+    }
+    if (raw != 0) {
+      EXPECT_FLOAT_EQ(features->depth_m[i], static_cast<float>(raw / 5000.0));
+    }
+    EXPECT_NEAR(features->right_u[i], u.x - 40.0F / features->depth_m[i], 1e-3F);
+    EXPECT_GT(features->depth_sigma_m[i], 0.001F);
+    EXPECT_LT(features->depth_sigma_m[i], 0.05F);
+  }
+  EXPECT_GT(n_without, 10);
+  EXPECT_LT(n_without, 300);
+  std::vector<int> all;
+  features->grid.query(320.0F, 240.0F, 1000.0F, 0, 7, all);
+  EXPECT_EQ(all.size(), found.keypoints.size());
+}
+
+TEST(FrameFeatures, FloatAndIntegerDepthAgree) {
+  const cv::Mat grey = test::textured_image(640, 480, 2);
+  const cv::Mat depth = wall_depth();
+  cv::Mat as_float;
+  depth.convertTo(as_float, CV_32FC1);
+  FrameFeaturesBuilder builder(desk_camera(), {});
+  const auto a = builder.build(grey, depth);
+  const auto b = builder.build(grey, as_float);
+  EXPECT_EQ(a->depth_m, b->depth_m);
+  EXPECT_EQ(a->depth_sigma_m, b->depth_sigma_m);
+  EXPECT_EQ(a->descriptors, b->descriptors) << "the builder's memory leaked from one frame into the next";
+}
+
+TEST(FrameFeatures, AFrameWithoutAnythingIsEmpty) {
+  FrameFeaturesBuilder builder(desk_camera(), {});
+  const auto features = builder.build(cv::Mat::zeros(480, 640, CV_8UC1), cv::Mat::zeros(480, 640, CV_16UC1));
+  EXPECT_EQ(features->size(), 0);
+  std::vector<int> found;
+  features->grid.query(320.0F, 240.0F, 1000.0F, 0, 7, found);
+  EXPECT_TRUE(found.empty());
+}
+
+TEST(FrameFeatures, RefusesImagesThatDoNotFit) {
+  FrameFeaturesBuilder builder(desk_camera(), {});
+  const cv::Mat grey = cv::Mat::zeros(480, 640, CV_8UC1);
+  EXPECT_THROW((void)builder.build(grey, cv::Mat::zeros(240, 320, CV_16UC1)), InputError);
+  EXPECT_THROW((void)builder.build(grey, cv::Mat::zeros(480, 640, CV_8UC1)), InputError);
+  EXPECT_THROW((void)builder.build(grey, cv::Mat()), InputError);
+  EXPECT_THROW((void)builder.build(cv::Mat::zeros(240, 320, CV_8UC1), cv::Mat::zeros(240, 320, CV_16UC1)),
+               InputError);
+  EXPECT_THROW((void)builder.build(cv::Mat::zeros(480, 640, CV_8UC3), cv::Mat::zeros(480, 640, CV_16UC1)),
+               InputError);
+}
+
+}  // namespace
+}  // namespace cpslam

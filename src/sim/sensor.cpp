@@ -30,7 +30,7 @@ cv::Mat correlated_noise(cv::Size size, double sigma_px, Random& random) {
   constexpr int kTaps = 7;
   const cv::Mat kernel = cv::getGaussianKernel(kTaps, sigma_px, CV_64F);
   cv::Mat noise;
-  cv::sepFilter2D(white, noise, CV_32F, kernel, kernel, {-1, -1}, 0.0, cv::BORDER_WRAP);
+  cv::sepFilter2D(white, noise, CV_32F, kernel, kernel, {-1, -1}, 0.0, cv::BORDER_REFLECT_101);
   return noise / kernel.dot(kernel);
 }
 

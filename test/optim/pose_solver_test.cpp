@@ -145,17 +145,17 @@ TEST(PoseSolver, FlagsExactlyTheGrossOutliers) {
 TEST(PoseSolver, FindsTheWayWithFewPointsAndMatchesAllOverTheImage) {
   Random random(43);
   int n_found = 0;
-  for (int trial = 0; trial < 50; ++trial) {
+  for (int trial = 0; trial < 200; ++trial) {
     const SE3 truth = random_pose(random);
-    auto observations = scenes::frame(truth, 100, 0.0, 1.0, random);
-    for (std::size_t i = 0; i < 40; ++i) {
+    auto observations = scenes::frame(truth, 50, 0.0, 1.0, random);
+    for (std::size_t i = 0; i < 20; ++i) {
       observations[i].seen.uv = {random.uniform(0.0, 640.0), random.uniform(0.0, 480.0)};
     }
     const SE3 start = disturbed(truth, 0.2, kTenDegrees, random);
     const SE3 found = solve_pose(scenes::camera(), start, observations).cam_from_world;
     n_found += distance(found, solve_pose(scenes::camera(), truth, observations).cam_from_world) < 1e-3;
   }
-  EXPECT_GE(n_found, 49);  // 45 when the gate does not follow the median
+  EXPECT_GE(n_found, 195);  // 191 when the gate of the robust rounds does not follow the median
 }
 
 TEST(PoseSolver, AgreesWithCeresOnItsInliers) {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <opencv2/features2d.hpp>
-
 #include "features/image_pyramid.h"
 #include "test_images.h"
 

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <opencv2/features2d.hpp>
 
 #include "features/image_pyramid.h"
 #include "test_images.h"

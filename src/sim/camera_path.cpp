@@ -68,7 +68,7 @@ class Tremor {
 class BasePath : public CameraPath {
  public:
   BasePath(double amplitude_m, double amplitude_rad, const Tremor& tremor, Random& random)
-      : base_(1.0 + random.uniform(-0.1, 0.1), OfficePlan::kMiddle_y + random.uniform(-0.2, 0.2),
+      : base_(0.85 + random.uniform(-0.08, 0.08), OfficePlan::kMiddle_y + random.uniform(-0.2, 0.2),
               1.4 + random.uniform(-0.05, 0.05)),
         x_(amplitude_m, 12.3, random),
         y_(amplitude_m, 10.7, random),
@@ -96,7 +96,7 @@ class BasePath : public CameraPath {
 class HalfspherePath : public CameraPath {
  public:
   explicit HalfspherePath(Random& random)
-      : azimuth_(55.0 * kDegree, 15.0, random),
+      : azimuth_(60.0 * kDegree, 16.0, random),
         elevation_(16.0 * kDegree, 9.7, random),
         radius_(0.08, 12.1, random),
         tremor_(0.002, 0.15 * kDegree, random) {}
@@ -109,7 +109,7 @@ class HalfspherePath : public CameraPath {
     const Eigen::Vector3d out(-std::cos(elevation) * std::cos(azimuth),
                               std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
     const Eigen::Vector3d position = centre + radius * out;
-    const Eigen::Vector3d target = centre + Eigen::Vector3d(0.35, 0.0, 0.1);
+    const Eigen::Vector3d target = centre + Eigen::Vector3d(0.5, 0.0, 0.15);
     return looking_along(position, target - position) * tremor_.at(t);
   }
 

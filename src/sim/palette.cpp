@@ -53,17 +53,17 @@ Palette paint_palette(SceneAssets& assets, Random& random) {
   const auto several = [&](int n, cv::Mat (*paint)(Random&)) {
     return paint_several(assets, n, Texture::Wrap::kClamp, [&] { return paint(random); });
   };
-  palette.rugs = several(2, paint_rug);
-  palette.posters = several(12, paint_poster);
+  palette.rugs = several(4, paint_rug);
+  palette.posters = several(20, paint_poster);
   palette.papers = several(8, paint_paper);
   palette.spines = several(24, paint_book_spine);
   palette.covers = several(8, paint_book_cover);
   palette.screens = several(8, paint_screen);
-  palette.whiteboards = several(2, paint_whiteboard);
-  palette.notice_boards = several(3, paint_notice_board);
+  palette.whiteboards = several(3, paint_whiteboard);
+  palette.notice_boards = several(4, paint_notice_board);
   palette.labels = several(6, paint_label);
-  palette.doors = several(2, paint_door);
-  palette.window_views = several(2, paint_window_view);
+  palette.doors = several(3, paint_door);
+  palette.window_views = several(4, paint_window_view);
   for (const int view : palette.window_views)
     assets.materials[static_cast<std::size_t>(view)].returns_depth = false;
   palette.keyboards = several(3, paint_keyboard);

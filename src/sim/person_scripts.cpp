@@ -34,11 +34,11 @@ SmoothCurve round_the_desks(double front_x, double outset_m, bool reversed) {
 }
 
 std::unique_ptr<PersonScript> front_walker(double front_x, double speed, bool stops, double start_s) {
-  SmoothCurve curve = to_and_fro({front_x, 0.9}, {front_x, 4.7}, 0.35);
+  SmoothCurve curve = to_and_fro({front_x, 0.9}, {front_x, 4.7}, 0.25);
   std::vector<Stop> list;
   if (stops) {
     Stop talk;
-    talk.at_m = curve.closest({front_x + 0.175, OfficePlan::kMiddle_y + 0.3});
+    talk.at_m = curve.closest({front_x + 0.125, OfficePlan::kMiddle_y + 0.3});
     talk.duration_s = 3.5;
     talk.facing_rad = 0.8 * kPi;
     talk.gesture = true;
@@ -71,10 +71,10 @@ std::unique_ptr<PersonScript> back_walker(double speed, double start_s) {
 
 // Between the east wall, where he leans, and the shelves, where he takes hold of a book.
 std::unique_ptr<PersonScript> wall_walker(double speed, double start_s) {
-  SmoothCurve curve({{6.36, 2.7}, {6.0, 3.2}, {5.95, 4.0}, {5.8, 4.4}, {5.62, 4.0}, {5.75, 3.0}, {6.05, 2.5}},
-                    true);
+  SmoothCurve curve(
+      {{6.26, 2.7}, {6.0, 3.2}, {5.95, 4.0}, {5.8, 4.4}, {5.62, 4.0}, {5.75, 3.0}, {5.95, 2.45}}, true);
   Stop wall;
-  wall.at_m = curve.closest({6.36, 2.7});
+  wall.at_m = curve.closest({6.26, 2.7});
   wall.duration_s = 5.0;
   wall.facing_rad = kPi;
   Stop shelf;
@@ -87,7 +87,7 @@ std::unique_ptr<PersonScript> wall_walker(double speed, double start_s) {
 
 std::unique_ptr<PersonScript> office_walker(const PresetInfo& preset, int id, Random& random) {
   // The halfsphere brings the camera close to the desks: people pass behind it.
-  const double front_x = preset.path == PathKind::kHalfsphere ? 1.2 : 2.02;
+  const double front_x = preset.path == PathKind::kHalfsphere ? 1.1 : 2.05;
   const double start_s = random.uniform(0.0, 12.0);
   const double speed = random.uniform(0.85, 1.2);
   switch (id) {
@@ -104,7 +104,7 @@ std::unique_ptr<PersonScript> office_walker(const PresetInfo& preset, int id, Ra
     case 4:
       return wall_walker(speed, start_s);
     case 5:
-      return front_walker(front_x - 0.1, speed + 0.15, false, start_s);
+      return front_walker(front_x - 0.05, speed + 0.15, false, start_s);
     case 6:
       return std::make_unique<WalkerScript>(round_the_desks(front_x, 0.45, false), speed, std::vector<Stop>{},
                                             start_s);

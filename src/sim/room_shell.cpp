@@ -61,6 +61,7 @@ void add_wall(Mesh& mesh, const SE3& place, double length, const RoomSpec& spec,
 void add_lamps(Scene& scene, Mesh& mesh, const RoomSpec& spec, const Palette& palette) {
   const Eigen::Vector2d size = spec.area.sizes();
   Lamp lamp;
+  lamp.room_id = static_cast<int>(scene.rooms.size());
   constexpr double kSlack_m = 0.1;  // reaches through the doorway's frame
   lamp.room.extend(Eigen::Vector3d(spec.area.min().x() - kSlack_m, spec.area.min().y() - kSlack_m, -kSlack_m)
                        .cast<float>());

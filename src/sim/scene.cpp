@@ -24,8 +24,10 @@ float floor_shade(const Eigen::Vector3f& point, const std::vector<Eigen::Aligned
 
 float Lighting::at(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) const {
   float direct = 0.0F;
+  int room_id = -1;  // a point in a doorway is lit from the first of its rooms only
   for (const Lamp& lamp : lamps_) {
-    if (!lamp.room.contains(point)) continue;
+    if ((room_id >= 0 && lamp.room_id != room_id) || !lamp.room.contains(point)) continue;
+    room_id = lamp.room_id;
     const Eigen::Vector3f to_lamp = lamp.position - point;
     const float distance2 = to_lamp.squaredNorm();
     // Lamps are large panels: light wraps a little around edges.
@@ -34,7 +36,7 @@ float Lighting::at(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) 
   }
   const float ambient = 0.50F + 0.06F * normal.z() + 0.03F * std::abs(normal.x());
   const float height = std::clamp(point.z() / 0.4F, 0.0F, 1.0F);
-  return (ambient + std::min(direct, 0.75F)) * (0.88F + 0.12F * height);
+  return (ambient + 0.8F * direct / (0.55F + direct)) * (0.88F + 0.12F * height);
 }
 
 void Scene::bake_light() {

@@ -12,6 +12,7 @@ namespace cpslam::sim {
 struct Lamp {
   Eigen::Vector3f position;
   Eigen::AlignedBox3f room;
+  int room_id = 0;
 };
 
 /// Brightness at a point with a normal: diffuse lamps, light from all around, darker near the floor.

@@ -84,7 +84,7 @@ cv::Mat exact_depth(const cv::Mat& depth_m, double depth_map_factor) {
 
 cv::Mat structured_light_depth(const RenderedView& view, const CameraSettings& camera, Random& random) {
   constexpr float kRaggedness_px = 0.6F;
-  constexpr double kGrazingNever = 0.1, kGrazingAlways = 0.25;  // cosines at which depth is lost, is safe
+  constexpr double kGrazingNever = 0.06, kGrazingAlways = 0.17;  // cosines at which depth is lost, is safe
   const cv::Mat axial = correlated_noise(view.depth_m.size(), 0.8, random);
   const cv::Mat shift_x = correlated_noise(view.depth_m.size(), 1.0, random);
   const cv::Mat shift_y = correlated_noise(view.depth_m.size(), 1.0, random);

@@ -1,6 +1,7 @@
 #include "sim/texture.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -9,24 +10,31 @@ namespace {
 
 constexpr float kMaxProbes = 8.0F;
 
+// Without SSE4.1 std::floor is a function call.
+int floor_to_int(float x) {
+  const int truncated = static_cast<int>(x);
+  return truncated - (static_cast<float>(truncated) > x ? 1 : 0);
+}
+
 struct Tap {
   int first, second;
   float weight;  // of the second
 };
 
-Tap tap(float coordinate, int size, bool repeat) {
+inline Tap tap(float coordinate, int size, bool repeat) {
   const float x = coordinate * static_cast<float>(size) - 0.5F;
-  const float base = std::floor(x);
-  int first = static_cast<int>(base);
+  int first = floor_to_int(x);
+  const float weight = x - static_cast<float>(first);
   int second = first + 1;
   if (repeat) {
-    if (first < 0) first += size;
-    if (second >= size) second -= size;
+    while (first < 0) first += size;
+    while (first >= size) first -= size;
+    second = first + 1 == size ? 0 : first + 1;
   } else {
     first = std::clamp(first, 0, size - 1);
     second = std::clamp(second, 0, size - 1);
   }
-  return {first, second, x - base};
+  return {first, second, weight};
 }
 
 }  // namespace
@@ -51,31 +59,22 @@ Texture::Texture(const cv::Mat& bgr, Wrap wrap) : wrap_(wrap) {
   }
 }
 
-Eigen::Array3f Texture::bilinear(const Level& level, float s, float t) const {
+inline Texture::Lanes Texture::bilinear(const Level& level, float s, float t) const {
   const bool repeat = wrap_ == Wrap::kRepeat;
-  if (repeat) {
-    s -= std::floor(s);
-    t -= std::floor(t);
-  }
   const Tap x = tap(s, level.width, repeat);
   const Tap y = tap(t, level.height, repeat);
   const Texel* upper = level.texels.data() + static_cast<std::ptrdiff_t>(y.first) * level.width;
   const Texel* lower = level.texels.data() + static_cast<std::ptrdiff_t>(y.second) * level.width;
-  const Texel& a = upper[x.first];
-  const Texel& b = upper[x.second];
-  const Texel& c = lower[x.first];
-  const Texel& d = lower[x.second];
+  const auto lanes = [](const Texel& texel) {
+    using Bytes = std::uint8_t __attribute__((vector_size(4)));
+    return __builtin_convertvector(std::bit_cast<Bytes>(texel), Lanes);
+  };
   const float wd = x.weight * y.weight;
   const float wb = x.weight - wd;
   const float wc = y.weight - wd;
   const float wa = 1.0F - x.weight - wc;
-  Eigen::Array3f colour;
-  for (int i = 0; i < 3; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    colour[i] = wa * static_cast<float>(a[k]) + wb * static_cast<float>(b[k]) +
-                wc * static_cast<float>(c[k]) + wd * static_cast<float>(d[k]);
-  }
-  return colour;
+  return wa * lanes(upper[x.first]) + wb * lanes(upper[x.second]) + wc * lanes(lower[x.first]) +
+         wd * lanes(lower[x.second]);
 }
 
 Eigen::Array3f Texture::sample(const TextureFootprint& f) const {
@@ -86,27 +85,33 @@ Eigen::Array3f Texture::sample(const TextureFootprint& f) const {
   const float a2 = ax * ax + ay * ay;
   const float b2 = bx * bx + by * by;
   const float long2 = std::max(a2, b2);
-  if (!(long2 > 1.0F)) return bilinear(levels_.front(), f.s, f.t);  // magnified, or a degenerate footprint
-
-  const float ratio = std::sqrt(long2 / std::max(std::min(a2, b2), 1e-12F));
-  const float n_probes = std::min(std::round(ratio), kMaxProbes);
-  const float lod = std::max(0.0F, 0.5F * std::log2(long2) - std::log2(n_probes));
-  const float last = static_cast<float>(levels_.size() - 1);
-  const float clamped = std::min(lod, last);
+  const bool repeat = wrap_ == Wrap::kRepeat;
+  const float s0 = repeat ? f.s - static_cast<float>(floor_to_int(f.s)) : f.s;
+  const float t0 = repeat ? f.t - static_cast<float>(floor_to_int(f.t)) : f.t;
+  if (!(long2 > 1.0F)) {  // magnified, or a degenerate footprint
+    const Lanes colour = bilinear(levels_.front(), s0, t0);
+    return {colour[0], colour[1], colour[2]};
+  }
+  const float ratio2 = long2 / std::max(std::min(a2, b2), 1e-12F);
+  const float n_probes = std::min(static_cast<float>(floor_to_int(std::sqrt(ratio2) + 0.5F)), kMaxProbes);
+  const float lod = std::max(0.0F, 0.5F * std::log2(long2 / (n_probes * n_probes)));
+  const float clamped = std::min(lod, static_cast<float>(levels_.size() - 1));
   const auto fine = static_cast<std::size_t>(clamped);
   const std::size_t coarse = std::min(fine + 1, levels_.size() - 1);
   const float weight = clamped - static_cast<float>(fine);
   const bool along_x = a2 >= b2;
-  const float step_s = (along_x ? f.ds_dx : f.ds_dy) / n_probes;
-  const float step_t = (along_x ? f.dt_dx : f.dt_dy) / n_probes;
-  Eigen::Array3f sum = Eigen::Array3f::Zero();
+  // A footprint longer than the picture is its mean anyway.
+  const float step_s = std::clamp(along_x ? f.ds_dx : f.ds_dy, -1.0F, 1.0F) / n_probes;
+  const float step_t = std::clamp(along_x ? f.dt_dx : f.dt_dy, -1.0F, 1.0F) / n_probes;
+  Lanes sum{};
   for (float i = 0.5F - 0.5F * n_probes; i < 0.5F * n_probes; i += 1.0F) {
-    const float s = f.s + i * step_s;
-    const float t = f.t + i * step_t;
+    const float s = s0 + i * step_s;
+    const float t = t0 + i * step_t;
     sum += (1.0F - weight) * bilinear(levels_[fine], s, t);
     if (weight > 0.0F) sum += weight * bilinear(levels_[coarse], s, t);
   }
-  return sum / n_probes;
+  sum /= n_probes;
+  return {sum[0], sum[1], sum[2]};
 }
 
 }  // namespace cpslam::sim

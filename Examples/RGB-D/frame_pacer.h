@@ -10,8 +10,8 @@ namespace cpslam::program {
 /// Plays a recorded sequence at the speed of its time stamps. One thread.
 class FramePacer {
  public:
-  /// Waits until the frame is due; the first frame is due at once. False when the frame is so late that its successor,
-  /// nominal_interval_s later, is due already: a live camera would have replaced it.
+  /// Waits until the frame is due; the first frame is due at once. False when the frame is so late that its
+  /// successor, nominal_interval_s later, is due already: a live camera would have replaced it.
   bool wait_for(double time_s, double nominal_interval_s) {
     const auto now = std::chrono::steady_clock::now();
     if (!first_time_s_) {
@@ -27,7 +27,8 @@ class FramePacer {
 
  private:
   static std::chrono::steady_clock::duration to_duration(double seconds) {
-    return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
+    return std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+        std::chrono::duration<double>(seconds));
   }
 
   std::optional<double> first_time_s_;

@@ -90,7 +90,8 @@ class UnusableFrames {
   std::size_t count_ = 0;
 };
 
-/// Feeds the sequence; returns 0 or 1 and fills the report's counts. Whatever fails, the system keeps what it has.
+/// Feeds the sequence; returns 0 or 1 and fills the report's counts. Whatever fails, the system keeps what it
+/// has.
 int run(System& system, const std::vector<RgbdEntry>& entries, ProgressBar& bar, RunReport& report) {
   ReadAhead reader(entries, kReadAhead);
   UnusableFrames unusable(bar);
@@ -107,7 +108,7 @@ int run(System& system, const std::vector<RgbdEntry>& entries, ProgressBar& bar,
       continue;
     }
     try {
-      system.track(images.colour, images.depth, images.time_s);
+      system.track(images.colour, images.depth, images.time_s, images.depth_time_s);
     } catch (const InputError& error) {
       unusable.add(images.time_s, error.what());
     } catch (const std::exception& error) {
@@ -174,7 +175,8 @@ int main_program(const RgbdTumOptions& options) {
               << "{CameraTrajectory.txt, KeyFrameTrajectory.txt, stats.json}\n";
   }
   if (report.statistics.frames == 0 && !report.interrupted) {
-    throw InputError(options.sequence + ": none of its " + std::to_string(entries.size()) + " frames could be used");
+    throw InputError(options.sequence + ": none of its " + std::to_string(entries.size()) +
+                     " frames could be used");
   }
   return std::max(run_code, save_code);
 }

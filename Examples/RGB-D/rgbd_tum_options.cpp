@@ -11,23 +11,29 @@ RgbdTumOptions parse_command_line(int argc, char** argv, std::optional<int>& exi
       "Tracks an RGB-D sequence in TUM format (TUM RGB-D, Bonn RGB-D Dynamic, simulate_tum) and writes\n"
       "CameraTrajectory.txt, KeyFrameTrajectory.txt and stats.json.\n\n"
       "Example: rgbd_tum - Examples/RGB-D/TUM1.yaml ~/rgbd_dataset_freiburg1_desk --output results"};
-  app.add_option("VOCABULARY", options.vocabulary,
-                 "ORB vocabulary, or - for the bundled one. This version does not recognise places yet: the file is\n"
-                 "accepted and not read")
+  app.add_option(
+         "VOCABULARY", options.vocabulary,
+         "ORB vocabulary, or - for the bundled one. This version does not recognise places yet: the file is\n"
+         "accepted and not read")
       ->required();
-  app.add_option("SETTINGS", options.settings, "Camera and feature settings (ORB-SLAM2's format)")->required();
+  app.add_option("SETTINGS", options.settings, "Camera and feature settings (ORB-SLAM2's format)")
+      ->required();
   app.add_option("SEQUENCE", options.sequence, "Folder with rgb.txt, depth.txt and the images")->required();
-  app.add_option("ASSOCIATIONS", options.associations,
-                 "Colour-depth pairs as associate.py writes them; left out: rgb.txt and depth.txt are paired here");
-  app.add_option("--output", options.output, "Folder for the results, made when missing")->capture_default_str();
+  app.add_option(
+      "ASSOCIATIONS", options.associations,
+      "Colour-depth pairs as associate.py writes them; left out: rgb.txt and depth.txt are paired here");
+  app.add_option("--output", options.output, "Folder for the results, made when missing")
+      ->capture_default_str();
   app.add_option("--detector", detector, "Person detector; none is the only one in this version")
       ->check(CLI::IsMember({"none"}))
       ->capture_default_str();
   auto* sequential = app.add_flag("--sequential", options.sequential,
                                   "All stages one after the other: the same result to the bit in every run");
-  app.add_flag("--realtime", options.realtime, "Pace by the time stamps and drop frames when late, like a live camera")
+  app.add_flag("--realtime", options.realtime,
+               "Pace by the time stamps and drop frames when late, like a live camera")
       ->excludes(sequential);
-  app.add_option("--start", options.start, "First pair of the sequence to use, counted from 0")->capture_default_str();
+  app.add_option("--start", options.start, "First pair of the sequence to use, counted from 0")
+      ->capture_default_str();
   app.add_option("--max-frames", options.max_frames, "How many pairs to use at most; default all")
       ->check(CLI::PositiveNumber);
   app.add_option("--seed", options.seed, "Seed of every random draw")->capture_default_str();

@@ -23,8 +23,8 @@ struct RgbdTumOptions {
   std::uint64_t seed = 0;
 };
 
-/// Parses the command line. When the program has nothing more to do (--help, --version, bad usage), prints what there
-/// is to say and sets exit_code.
+/// Parses the command line. When the program has nothing more to do (--help, --version, bad usage), prints
+/// what there is to say and sets exit_code.
 [[nodiscard]] RgbdTumOptions parse_command_line(int argc, char** argv, std::optional<int>& exit_code);
 
 }  // namespace cpslam::program

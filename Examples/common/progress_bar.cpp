@@ -13,9 +13,14 @@ constexpr std::chrono::milliseconds kRedraw{100};
 }  // namespace
 
 ProgressBar::ProgressBar(std::string label, std::size_t total, bool enabled)
-    : label_(std::move(label)), total_(total), enabled_(enabled && total > 0), terminal_(isatty(STDERR_FILENO) == 1) {}
+    : label_(std::move(label)),
+      total_(total),
+      enabled_(enabled && total > 0),
+      terminal_(isatty(STDERR_FILENO) == 1) {}
 
-ProgressBar::~ProgressBar() { finish(); }
+ProgressBar::~ProgressBar() {
+  finish();
+}
 
 void ProgressBar::update(std::size_t done, const std::string& note) {
   const std::lock_guard lock(mutex_);
@@ -48,7 +53,9 @@ void ProgressBar::finish() {
   enabled_ = false;
 }
 
-void ProgressBar::draw() { std::fprintf(stderr, "\r\033[K%s", text().c_str()); }
+void ProgressBar::draw() {
+  std::fprintf(stderr, "\r\033[K%s", text().c_str());
+}
 
 std::string ProgressBar::text() const {
   const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -57,8 +64,8 @@ std::string ProgressBar::text() const {
   std::string bar(done_ * kBarWidth / total_, '=');
   bar.resize(kBarWidth, ' ');
   char numbers[96];
-  std::snprintf(numbers, sizeof numbers, "] %3zu %%  %zu/%zu  %.1f/s  eta %ld:%02ld", done_ * 100 / total_, done_, total_,
-                rate, eta_s / 60, eta_s % 60);
+  std::snprintf(numbers, sizeof numbers, "] %3zu %%  %zu/%zu  %.1f/s  eta %ld:%02ld", done_ * 100 / total_,
+                done_, total_, rate, eta_s / 60, eta_s % 60);
   return label_ + " [" + bar + numbers + (note_.empty() ? "" : "  " + note_);
 }
 

@@ -7,8 +7,8 @@
 
 namespace cpslam::program {
 
-/// "tracking [=====>    ]  50 %  125/250  28.3/s  eta 0:04" on stderr: redrawn in place on a terminal, a line every
-/// tenth elsewhere, nothing when disabled. Thread-safe.
+/// "tracking [=====>    ]  50 %  125/250  28.3/s  eta 0:04" on stderr: redrawn in place on a terminal, a line
+/// every tenth elsewhere, nothing when disabled. Thread-safe.
 class ProgressBar {
  public:
   ProgressBar(std::string label, std::size_t total, bool enabled);

@@ -29,18 +29,33 @@ std::string line(const char* format, Values... values) {
 
 nlohmann::ordered_json settings_json(const Settings& s) {
   return {{"camera",
-           {{"width", s.camera.width}, {"height", s.camera.height}, {"fx", s.camera.fx}, {"fy", s.camera.fy},
-            {"cx", s.camera.cx}, {"cy", s.camera.cy}, {"k1", s.camera.k1}, {"k2", s.camera.k2}, {"p1", s.camera.p1},
-            {"p2", s.camera.p2}, {"k3", s.camera.k3}, {"fps", s.camera.fps}, {"bf", s.camera.bf},
+           {{"width", s.camera.width},
+            {"height", s.camera.height},
+            {"fx", s.camera.fx},
+            {"fy", s.camera.fy},
+            {"cx", s.camera.cx},
+            {"cy", s.camera.cy},
+            {"k1", s.camera.k1},
+            {"k2", s.camera.k2},
+            {"p1", s.camera.p1},
+            {"p2", s.camera.p2},
+            {"k3", s.camera.k3},
+            {"fps", s.camera.fps},
+            {"bf", s.camera.bf},
             {"depth_map_factor", s.camera.depth_map_factor}}},
           {"orb",
-           {{"n_features", s.orb.n_features}, {"scale_factor", s.orb.scale_factor}, {"n_levels", s.orb.n_levels},
-            {"ini_th_fast", s.orb.ini_th_fast}, {"min_th_fast", s.orb.min_th_fast}}},
+           {{"n_features", s.orb.n_features},
+            {"scale_factor", s.orb.scale_factor},
+            {"n_levels", s.orb.n_levels},
+            {"ini_th_fast", s.orb.ini_th_fast},
+            {"min_th_fast", s.orb.min_th_fast}}},
           {"tracking",
-           {{"th_depth", s.tracking.th_depth}, {"min_initial_points", s.tracking.min_initial_points},
+           {{"th_depth", s.tracking.th_depth},
+            {"min_initial_points", s.tracking.min_initial_points},
             {"min_inliers", s.tracking.min_inliers}}},
           {"mapping",
-           {{"local_ba_iterations", s.mapping.local_ba_iterations}, {"queue_capacity", s.mapping.queue_capacity}}},
+           {{"local_ba_iterations", s.mapping.local_ba_iterations},
+            {"queue_capacity", s.mapping.queue_capacity}}},
           {"sequential", s.sequential},
           {"realtime", s.realtime},
           {"seed", s.seed}};
@@ -75,8 +90,11 @@ std::string to_json(const RunReport& report) {
                                  {"local_bundle_adjustments", s.local_bundle_adjustments}};
   json["stages"] = nlohmann::ordered_json::array();
   for (const StageTimes& stage : s.stages) {
-    json["stages"].push_back({{"stage", stage.stage}, {"count", stage.count}, {"p50_ms", stage.p50_ms},
-                              {"p95_ms", stage.p95_ms}, {"max_ms", stage.max_ms}});
+    json["stages"].push_back({{"stage", stage.stage},
+                              {"count", stage.count},
+                              {"p50_ms", stage.p50_ms},
+                              {"p95_ms", stage.p95_ms},
+                              {"max_ms", stage.max_ms}});
   }
   json["tracking_ms"] = nullptr;
   if (const StageTimes* track = find_stage(s, "track")) {
@@ -86,8 +104,11 @@ std::string to_json(const RunReport& report) {
   json["wall_s"] = report.wall_s;
   json["ate"] = nullptr;
   if (report.ate) {
-    json["ate"] = {{"pairs", report.ate->pairs}, {"rmse_m", report.ate->rmse_m}, {"mean_m", report.ate->mean_m},
-                   {"median_m", report.ate->median_m}, {"max_m", report.ate->max_m}};
+    json["ate"] = {{"pairs", report.ate->pairs},
+                   {"rmse_m", report.ate->rmse_m},
+                   {"mean_m", report.ate->mean_m},
+                   {"median_m", report.ate->median_m},
+                   {"max_m", report.ate->max_m}};
   }
   return json.dump(2) + "\n";
 }
@@ -98,14 +119,15 @@ std::string to_text(const RunReport& report) {
   text += line("frames      %zu: %zu tracked (%.1f %%), %zu predicted, %zu lost, %zu before the start",
                report.frames_in_sequence, s.tracked, 100.0 * tracked_ratio(report), s.predicted, s.lost,
                s.not_initialized);
-  if (report.unreadable > 0) text += line("            %zu could not be used (see the warnings)", report.unreadable);
+  if (report.unreadable > 0)
+    text += line("            %zu could not be used (see the warnings)", report.unreadable);
   if (report.dropped > 0) text += line("            %zu dropped to keep up with real time", report.dropped);
   if (report.interrupted) text += "            interrupted: the frames after that were not read\n";
-  text += line("map         %zu keyframes (%zu made), %zu points (%zu made)", s.keyframes, s.keyframes_created,
-               s.map_points, s.map_points_created);
+  text += line("map         %zu keyframes (%zu made), %zu points (%zu made)", s.keyframes,
+               s.keyframes_created, s.map_points, s.map_points_created);
   if (const StageTimes* track = find_stage(s, "track")) {
-    text += line("tracking    %.1f ms a frame (median), %.1f ms (95 %%), %.1f ms (max)", track->p50_ms, track->p95_ms,
-                 track->max_ms);
+    text += line("tracking    %.1f ms a frame (median), %.1f ms (95 %%), %.1f ms (max)", track->p50_ms,
+                 track->p95_ms, track->max_ms);
   }
   text += line("total       %.1f s, peak memory %.0f MB", report.wall_s, report.peak_memory_mb);
   if (report.ate) {

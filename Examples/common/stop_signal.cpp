@@ -20,6 +20,8 @@ void install_stop_signal() {
   std::signal(SIGTERM, request_stop);
 }
 
-bool stop_requested() { return stop_flag != 0; }
+bool stop_requested() {
+  return stop_flag != 0;
+}
 
 }  // namespace cpslam::program

@@ -11,8 +11,8 @@ namespace cpslam {
 
 /// RGB-D SLAM: feed frames in the order of their stamps, read poses.
 ///
-/// Several Systems may live in one process. Members may be called from one thread at a time. The destructor stops
-/// and joins every thread.
+/// Several Systems may live in one process. Members may be called from one thread at a time. The destructor
+/// stops and joins every thread.
 class System {
  public:
   /// Throws InputError when a setting is missing or out of range.
@@ -23,11 +23,15 @@ class System {
 
   /// Tracks one frame.
   /// colour: CV_8UC3 (B,G,R as OpenCV reads it) or CV_8UC1; depth: CV_16UC1 or
-  /// CV_32FC1 in units of depth_map_factor, registered to the colour image, 0 or NaN where there is none; both of
-  /// the size in the settings. time_s must grow from call to call.
-  /// Throws InputError, and leaves the state as it was, for images or a stamp that are not so; RunError or what the
-  /// mapping thread threw when that thread died: the trajectory so far stays readable.
+  /// CV_32FC1 in units of depth_map_factor, registered to the colour image, 0 or NaN where there is none;
+  /// both of the size in the settings. time_s must grow from call to call. Throws InputError, and leaves the
+  /// state as it was, for images or a stamp that are not so; RunError or what the mapping thread threw when
+  /// that thread died: the trajectory so far stays readable.
   TrackResult track(const cv::Mat& colour, const cv::Mat& depth, double time_s);
+
+  /// The same for a camera that stamps its depth images apart: the camera's motion between the two exposures
+  /// is taken out of the depths. depth_time_s may lie before or after time_s.
+  TrackResult track(const cv::Mat& colour, const cv::Mat& depth, double time_s, double depth_time_s);
 
   /// Finishes the mapping of the frames so far and ends the threads. Idempotent; track() may not follow.
   void shutdown();

@@ -32,10 +32,10 @@ enum class TrackingState {
 struct TrackResult {
   TrackingState state = TrackingState::kNotInitialized;
   double time_s = 0.0;
-  Pose world_from_camera;        ///< valid when kTracked or kPredicted
+  Pose world_from_camera;  ///< valid when kTracked or kPredicted
   int n_keypoints = 0;
-  int n_inliers = 0;             ///< map points that agree with the pose
-  bool keyframe = false;         ///< the frame became a keyframe
+  int n_inliers = 0;      ///< map points that agree with the pose
+  bool keyframe = false;  ///< the frame became a keyframe
 };
 
 /// Milliseconds a stage took, over all its calls.
@@ -53,9 +53,9 @@ struct Statistics {
   std::size_t predicted = 0;
   std::size_t lost = 0;
   std::size_t not_initialized = 0;
-  std::size_t keyframes = 0;        ///< alive
+  std::size_t keyframes = 0;  ///< alive
   std::size_t keyframes_created = 0;
-  std::size_t map_points = 0;       ///< alive
+  std::size_t map_points = 0;  ///< alive
   std::size_t map_points_created = 0;
   std::size_t local_bundle_adjustments = 0;
   std::vector<StageTimes> stages;

@@ -16,8 +16,18 @@ struct Distortion {
 }  // namespace
 
 PinholeCamera::PinholeCamera(const CameraSettings& s)
-    : width_(s.width), height_(s.height), fx_(s.fx), fy_(s.fy), cx_(s.cx), cy_(s.cy), bf_(s.bf), k1_(s.k1),
-      k2_(s.k2), p1_(s.p1), p2_(s.p2), k3_(s.k3),
+    : width_(s.width),
+      height_(s.height),
+      fx_(s.fx),
+      fy_(s.fy),
+      cx_(s.cx),
+      cy_(s.cy),
+      bf_(s.bf),
+      k1_(s.k1),
+      k2_(s.k2),
+      p1_(s.p1),
+      p2_(s.p2),
+      k3_(s.k3),
       has_distortion_(s.k1 != 0.0 || s.k2 != 0.0 || s.p1 != 0.0 || s.p2 != 0.0 || s.k3 != 0.0) {
   bounds_ = {0.0, 0.0, static_cast<double>(width_), static_cast<double>(height_)};
   if (!has_distortion_) return;

@@ -36,10 +36,6 @@ class PinholeCamera {
   /// Inverse of distort by Newton iteration; accurate to 1e-6 px inside the image.
   [[nodiscard]] Eigen::Vector2d undistort(const Eigen::Vector2d& distorted_px) const;
 
-  /// x coordinate the point would have in a second camera bf/fx metres to the right (the RGB-D "virtual right
-  /// image" of Mur-Artal and Tardos 2017).
-  [[nodiscard]] double virtual_right(double u_px, double depth_m) const { return u_px - bf_ / depth_m; }
-
   /// Smallest box around all undistorted pixels of the image: min x, min y, max x, max y.
   [[nodiscard]] const std::array<double, 4>& undistorted_bounds() const { return bounds_; }
   [[nodiscard]] bool in_image(const Eigen::Vector2d& undistorted_px) const {

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "cpslam/error.h"
-#include "features/keypoint_depth.h"
 
 namespace cpslam {
 namespace {
@@ -18,16 +17,17 @@ std::string size_text(cv::Size size) {
 FrameFeaturesBuilder::FrameFeaturesBuilder(const CameraSettings& camera, const OrbSettings& orb)
     : camera_(camera), metres_per_unit_(1.0 / camera.depth_map_factor), extractor_(orb) {}
 
-std::shared_ptr<const FrameFeatures> FrameFeaturesBuilder::build(const cv::Mat& grey, const cv::Mat& depth) {
+std::shared_ptr<const FrameFeatures> FrameFeaturesBuilder::build(const cv::Mat& grey, const cv::Mat& depth,
+                                                                 const SE3& depth_from_colour) {
   check(grey, depth);
   extractor_.extract(grey, found_);
   auto features = std::make_shared<FrameFeatures>();
   const std::size_t n = found_.keypoints.size();
   features->keypoints.reserve(n);
   features->depth_m.reserve(n);
-  features->right_u.reserve(n);
+  features->disparity_px.reserve(n);
   features->depth_sigma_m.reserve(n);
-  for (const OrbKeypoint& k : found_.keypoints) add_keypoint(k, depth, *features);
+  for (const OrbKeypoint& k : found_.keypoints) add_keypoint(k, depth, depth_from_colour, *features);
   features->descriptors = found_.descriptors;
   features->grid = KeypointGrid(features->keypoints, camera_.undistorted_bounds());
   return features;
@@ -51,20 +51,42 @@ void FrameFeaturesBuilder::check(const cv::Mat& grey, const cv::Mat& depth) cons
 }
 
 void FrameFeaturesBuilder::add_keypoint(const OrbKeypoint& found, const cv::Mat& depth,
-                                        FrameFeatures& features) const {
-  const Eigen::Vector2d u = camera_.undistort({static_cast<double>(found.x), static_cast<double>(found.y)});
+                                        const SE3& depth_from_colour, FrameFeatures& features) const {
+  const Eigen::Vector2d distorted(static_cast<double>(found.x), static_cast<double>(found.y));
+  const Eigen::Vector2d u = camera_.undistort(distorted);
   features.keypoints.push_back(
       {static_cast<float>(u.x()), static_cast<float>(u.y()), found.angle_deg, found.response, found.octave});
   // Depth is registered to the image as it was taken, so it is read at the distorted pixel.
-  const DepthReading reading =
-      read_keypoint_depth(depth, metres_per_unit_, static_cast<int>(std::lround(found.x)),
-                          static_cast<int>(std::lround(found.y)));
+  const DepthReading reading = follow_motion(read_depth(distorted, depth), u, depth, depth_from_colour);
   features.depth_m.push_back(reading.depth_m);
   features.depth_sigma_m.push_back(reading.sigma_m);
-  const bool has_depth = reading.depth_m > 0.0F;
-  features.right_u.push_back(
-      has_depth ? static_cast<float>(camera_.virtual_right(u.x(), static_cast<double>(reading.depth_m)))
-                : -1.0F);
+  features.disparity_px.push_back(reading.depth_m > 0.0F ? static_cast<float>(camera_.bf()) / reading.depth_m
+                                                         : 0.0F);
+}
+
+DepthReading FrameFeaturesBuilder::read_depth(const Eigen::Vector2d& distorted_px,
+                                              const cv::Mat& depth) const {
+  const auto x = static_cast<int>(std::lround(distorted_px.x()));
+  const auto y = static_cast<int>(std::lround(distorted_px.y()));
+  if (x < 0 || y < 0 || x >= depth.cols || y >= depth.rows) return {};
+  return read_keypoint_depth(depth, metres_per_unit_, x, y);
+}
+
+DepthReading FrameFeaturesBuilder::follow_motion(DepthReading reading, const Eigen::Vector2d& undistorted_px,
+                                                 const cv::Mat& depth, const SE3& depth_from_colour) const {
+  // Where the surface at this depth was seen by the depth camera, its reading corrects the depth; twice is
+  // enough for a motion of a few pixels over a surface.
+  constexpr int kIterations = 2;
+  constexpr double kNearestM = 0.05;
+  for (int i = 0; i < kIterations && reading.depth_m > 0.0F; ++i) {
+    const Eigen::Vector3d in_depth_camera =
+        depth_from_colour * camera_.back_project(undistorted_px, static_cast<double>(reading.depth_m));
+    if (in_depth_camera.z() < kNearestM) return {};
+    const DepthReading there = read_depth(camera_.distort(camera_.project(in_depth_camera)), depth);
+    reading.depth_m *= there.depth_m / static_cast<float>(in_depth_camera.z());
+    reading.sigma_m = there.sigma_m;
+  }
+  return reading;
 }
 
 }  // namespace cpslam

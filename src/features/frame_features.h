@@ -8,8 +8,10 @@
 #include "cpslam/settings.h"
 #include "features/descriptor.h"
 #include "features/keypoint.h"
+#include "features/keypoint_depth.h"
 #include "features/keypoint_grid.h"
 #include "features/orb_extractor.h"
+#include "geometry/se3.h"
 
 namespace cpslam {
 
@@ -18,8 +20,9 @@ namespace cpslam {
 struct FrameFeatures {
   std::vector<Keypoint> keypoints;  ///< undistorted px
   std::vector<Descriptor> descriptors;
-  std::vector<float> depth_m;        ///< along z; 0 where there is none
-  std::vector<float> right_u;        ///< x - bf / depth (PinholeCamera::virtual_right), px; -1 without depth
+  std::vector<float> depth_m;  ///< along z; 0 where there is none
+  std::vector<float>
+      disparity_px;  ///< bf / depth: between here and a camera bf / fx to the right; 0 without depth
   std::vector<float> depth_sigma_m;  ///< standard deviation of depth_m; 0 without depth
   KeypointGrid grid;                 ///< over keypoints
 
@@ -33,12 +36,19 @@ class FrameFeaturesBuilder {
 
   /// grey: 8-bit, of the camera's size. depth: registered to it, of the same size, CV_16UC1 or CV_32FC1 in
   /// units of DepthMapFactor; 0, negative and not finite mean no reading. Throws InputError on another type
-  /// or size. A point's right_u may be negative where it has depth: ask depth_m whether there is one.
-  [[nodiscard]] std::shared_ptr<const FrameFeatures> build(const cv::Mat& grey, const cv::Mat& depth);
+  /// or size.
+  /// depth_from_colour: how the camera moved from the exposure of the colour image to that of the depth
+  /// image; the depths are brought back to the colour image's instant with it.
+  [[nodiscard]] std::shared_ptr<const FrameFeatures> build(const cv::Mat& grey, const cv::Mat& depth,
+                                                           const SE3& depth_from_colour = {});
 
  private:
   void check(const cv::Mat& grey, const cv::Mat& depth) const;
-  void add_keypoint(const OrbKeypoint& found, const cv::Mat& depth, FrameFeatures& features) const;
+  void add_keypoint(const OrbKeypoint& found, const cv::Mat& depth, const SE3& depth_from_colour,
+                    FrameFeatures& features) const;
+  [[nodiscard]] DepthReading read_depth(const Eigen::Vector2d& distorted_px, const cv::Mat& depth) const;
+  [[nodiscard]] DepthReading follow_motion(DepthReading reading, const Eigen::Vector2d& undistorted_px,
+                                           const cv::Mat& depth, const SE3& depth_from_colour) const;
 
   PinholeCamera camera_;
   double metres_per_unit_;

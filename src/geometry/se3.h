@@ -14,20 +14,20 @@ struct SE3 {
 
   SE3() = default;
   SE3(const Eigen::Matrix3d& r, const Eigen::Vector3d& t) : rotation(r), translation(t) {}
-  SE3(const Eigen::Quaterniond& q, const Eigen::Vector3d& t) : rotation(q.toRotationMatrix()), translation(t) {}
+  SE3(const Eigen::Quaterniond& q, const Eigen::Vector3d& t)
+      : rotation(q.toRotationMatrix()), translation(t) {}
 
   Eigen::Vector3d operator*(const Eigen::Vector3d& point) const { return rotation * point + translation; }
   SE3 operator*(const SE3& other) const {
     return {rotation * other.rotation, rotation * other.translation + translation};
   }
-  [[nodiscard]] SE3 inverse() const {
-    return {rotation.transpose(), -(rotation.transpose() * translation)};
-  }
+  [[nodiscard]] SE3 inverse() const { return {rotation.transpose(), -(rotation.transpose() * translation)}; }
   [[nodiscard]] Eigen::Quaterniond quaternion() const { return Eigen::Quaterniond(rotation).normalized(); }
   /// Rotation matrix pulled back onto SO(3); after long chains of products.
   [[nodiscard]] SE3 normalized() const { return {quaternion(), translation}; }
 
-  /// exp of the twist (translation part v, rotation part w in rad): the group exponential (Barfoot 2017, ch. 7).
+  /// exp of the twist (translation part v, rotation part w in rad): the group exponential (Barfoot 2017, ch.
+  /// 7).
   static SE3 exp(const Eigen::Matrix<double, 6, 1>& twist);
   /// Inverse of exp; the rotation angle lies in [0, pi].
   [[nodiscard]] Eigen::Matrix<double, 6, 1> log() const;

@@ -66,6 +66,7 @@ std::string size_text(const cv::Mat& image) {
 RgbdImages read_rgbd(const RgbdEntry& entry) {
   RgbdImages images;
   images.time_s = entry.time_s;
+  images.depth_time_s = entry.depth_time_s;
   try {
     cv::Mat colour = read_colour(entry.colour_path);
     cv::Mat depth = read_depth(entry.depth_path);

@@ -107,11 +107,7 @@ class SettingsReader {
       return;
     }
     if (*value != std::floor(*value)) fail(name + ": " + printable(text) + " is not a whole number");
-    if (int* const* integer = std::get_if<int*>(&member)) {
-      **integer = static_cast<int>(*value);
-    } else {
-      *std::get<bool*>(member) = *value != 0.0;
-    }
+    *std::get<int*>(member) = static_cast<int>(*value);
   }
 
   void check_required() const {
@@ -133,8 +129,7 @@ std::string member_text(const SettingsMember& member) {
     const std::string text = number_text(**real);
     return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
   }
-  if (int* const* integer = std::get_if<int*>(&member)) return std::to_string(**integer);
-  return *std::get<bool*>(member) ? "1" : "0";
+  return std::to_string(*std::get<int*>(member));
 }
 
 double as_number(const SettingsMember& member) {

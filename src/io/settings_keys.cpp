@@ -29,7 +29,6 @@ constexpr std::array kKeys = std::to_array<SettingsKey>({
     {"Camera.height", [](Settings& s) -> M { return &s.camera.height; }, 64, 8192},
     {"Camera.fps", [](Settings& s) -> M { return &s.camera.fps; }, 0.1, 1000.0},
     {"Camera.bf", [](Settings& s) -> M { return &s.camera.bf; }, 1e-3, 1e5},
-    {"Camera.RGB", [](Settings& s) -> M { return &s.camera.rgb; }, 0, 1},
     {"ThDepth", [](Settings& s) -> M { return &s.tracking.th_depth; }, 1e-3, 1e5},
     {"DepthMapFactor", [](Settings& s) -> M { return &s.camera.depth_map_factor; }, 1e-5, 1e7},
     {"ORBextractor.nFeatures", [](Settings& s) -> M { return &s.orb.n_features; }, 50, 100000},
@@ -45,6 +44,7 @@ constexpr std::array kKeys = std::to_array<SettingsKey>({
 });
 
 constexpr auto kIgnored = std::to_array<std::string_view>({
+    "Camera.RGB",  // images come as B,G,R everywhere
     "Viewer.KeyFrameSize",
     "Viewer.KeyFrameLineWidth",
     "Viewer.GraphLineWidth",

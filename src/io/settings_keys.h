@@ -9,7 +9,7 @@
 
 namespace cpslam {
 
-using SettingsMember = std::variant<double*, int*, bool*>;
+using SettingsMember = std::variant<double*, int*>;
 
 /// One key of a settings file.
 struct SettingsKey {
@@ -32,7 +32,7 @@ struct SettingsKey {
 /// The known key that is spelled most like `name`; empty when none is near.
 [[nodiscard]] std::string nearest_settings_key(std::string_view name);
 
-/// "key: value is outside its range ...", empty when the value (as a number; bool as 0 or 1) is within.
+/// "key: value is outside its range ...", empty when the value (as a number) is within.
 [[nodiscard]] std::string range_error(const SettingsKey& key, double value);
 
 /// Shortest text that parses back to the same value, for messages and files.

@@ -58,8 +58,9 @@ void Map::erase_edge(KeyFrameId from, KeyFrameId to) {
 }
 
 void Map::adopt_children(KeyFrameId orphaned_by, const KeyFrame& dead) {
-  // A child goes to the candidate it shares most points with; a child that found a parent is itself a candidate for
-  // the others, which keeps the tree free of cycles. What shares nothing goes to the grandparent.
+  // A child goes to the candidate it shares most points with; a child that found a parent is itself a
+  // candidate for the others, which keeps the tree free of cycles. What shares nothing goes to the
+  // grandparent.
   std::vector<KeyFrameId> orphans = dead.children;
   std::vector<KeyFrameId> candidates{dead.parent};
   while (!orphans.empty()) {
@@ -68,7 +69,8 @@ void Map::adopt_children(KeyFrameId orphaned_by, const KeyFrame& dead) {
     int best_shared = -1;
     for (const KeyFrameId child : orphans) {
       for (const Covisible& edge : keyframes_.find(child)->covisible) {
-        const bool allowed = std::find(candidates.begin(), candidates.end(), edge.keyframe) != candidates.end();
+        const bool allowed =
+            std::find(candidates.begin(), candidates.end(), edge.keyframe) != candidates.end();
         if (edge.keyframe != orphaned_by && allowed && edge.shared_points > best_shared) {
           best_shared = edge.shared_points;
           best_child = child;
@@ -97,10 +99,11 @@ std::vector<KeyFrameId> Map::best_covisible(KeyFrameId id, std::size_t n) const 
 int Map::count_points(KeyFrameId id, std::size_t min_observations) const {
   const KeyFrame* keyframe = keyframes_.find(id);
   if (keyframe == nullptr) return 0;
-  return static_cast<int>(std::count_if(keyframe->points.begin(), keyframe->points.end(), [&](MapPointId point_id) {
-    const MapPoint* point = points_.find(point_id);
-    return point != nullptr && point->observations.size() >= min_observations;
-  }));
+  return static_cast<int>(
+      std::count_if(keyframe->points.begin(), keyframe->points.end(), [&](MapPointId point_id) {
+        const MapPoint* point = points_.find(point_id);
+        return point != nullptr && point->observations.size() >= min_observations;
+      }));
 }
 
 }  // namespace cpslam

@@ -22,9 +22,9 @@ struct KeyFrame {
   double time_s = 0.0;
   SE3 cam_from_world;
   std::shared_ptr<const FrameFeatures> features;
-  std::vector<MapPointId> points;     ///< parallel to the keypoints; invalid where a keypoint has no map point
-  std::vector<Covisible> covisible;   ///< most shared points first, then the older keyframe
-  KeyFrameId parent;                  ///< in the spanning tree; invalid for the root
+  std::vector<MapPointId> points;    ///< parallel to the keypoints; invalid where a keypoint has no map point
+  std::vector<Covisible> covisible;  ///< most shared points first, then the older keyframe
+  KeyFrameId parent;                 ///< in the spanning tree; invalid for the root
   std::vector<KeyFrameId> children;
 
   [[nodiscard]] Eigen::Vector3d centre_in_world() const {

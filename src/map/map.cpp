@@ -140,10 +140,11 @@ void Map::erase_observation(MapPointId point_id, KeyFrameId keyframe_id) {
   keyframes_.find(keyframe_id)->points[static_cast<std::size_t>(seen->keypoint)] = MapPointId{};
   observations.erase(seen);
   ++version_;
-  const bool stands = observations.size() >= 2 ||
-                      (observations.size() == 1 &&
-                       keyframes_.find(observations[0].keyframe)
-                               ->features->depth_m[static_cast<std::size_t>(observations[0].keypoint)] > 0.0F);
+  const bool stands =
+      observations.size() >= 2 ||
+      (observations.size() == 1 &&
+       keyframes_.find(observations[0].keyframe)
+               ->features->depth_m[static_cast<std::size_t>(observations[0].keypoint)] > 0.0F);
   if (!stands) {
     erase_point(point_id);
   } else if (point->reference == keyframe_id) {

@@ -15,10 +15,10 @@ namespace cpslam {
 
 /// Owns all keyframes and map points; everything else refers to them by id.
 ///
-/// Locking: one mutex for everything in here. Const members need at least a shared lock of mutex(), the others a
-/// unique one, held by the caller, so that several calls make one consistent step. It is the only lock of the
-/// core that is held while another module runs, so there is no lock order to keep; do not call back into a
-/// Worker while holding it.
+/// Locking: one mutex for everything in here. Const members need at least a shared lock of mutex(), the
+/// others a unique one, held by the caller, so that several calls make one consistent step. It is the only
+/// lock of the core that is held while another module runs, so there is no lock order to keep; do not call
+/// back into a Worker while holding it.
 class Map {
  public:
   explicit Map(const ScalePyramid& pyramid) : pyramid_(pyramid) {}
@@ -27,13 +27,14 @@ class Map {
 
   [[nodiscard]] std::shared_mutex& mutex() const { return mutex_; }
 
-  // Keyframes -------------------------------------------------------------------------------------------------
+  // Keyframes
+  // -------------------------------------------------------------------------------------------------
   /// Adds a keyframe without points or links; sets its sequence and sizes its points.
   KeyFrameId add_keyframe(KeyFrame keyframe);
   [[nodiscard]] const KeyFrame* keyframe(KeyFrameId id) const { return keyframes_.find(id); }
   void set_pose(KeyFrameId id, const SE3& cam_from_world);
-  /// Frees a keyframe: its observations go (and the points that lose too many), its children find new parents, and
-  /// a tombstone keeps its pose relative to its parent. The root stays; returns false for it.
+  /// Frees a keyframe: its observations go (and the points that lose too many), its children find new
+  /// parents, and a tombstone keeps its pose relative to its parent. The root stays; returns false for it.
   bool erase_keyframe(KeyFrameId id);
   /// Pose of a live or culled keyframe; a culled one's follows from the pose of its nearest living ancestor.
   [[nodiscard]] std::optional<SE3> cam_from_world(KeyFrameId id) const;
@@ -41,7 +42,8 @@ class Map {
   [[nodiscard]] KeyFrameId living(KeyFrameId id) const;
   [[nodiscard]] std::vector<KeyFrameId> keyframes_by_sequence() const;
 
-  // Points ----------------------------------------------------------------------------------------------------
+  // Points
+  // ----------------------------------------------------------------------------------------------------
   /// Adds a point with its first observation; its descriptor, normal and distance range come from there.
   MapPointId add_point(const Eigen::Vector3d& position_in_world, const Observation& first);
   [[nodiscard]] const MapPoint* point(MapPointId id) const { return points_.find(id); }
@@ -51,8 +53,10 @@ class Map {
   /// Moves old's observations to kept (where kept has none in that keyframe yet) and erases old.
   void merge_points(MapPointId old, MapPointId kept);
 
-  // Links between them ------------------------------------------------------------------------------------------
-  /// Returns false, and does nothing, when either is gone, the keypoint is taken, or the keyframe sees the point.
+  // Links between them
+  // ------------------------------------------------------------------------------------------
+  /// Returns false, and does nothing, when either is gone, the keypoint is taken, or the keyframe sees the
+  /// point.
   bool add_observation(MapPointId point, const Observation& observation);
   /// A point left with fewer than two observations and no depth to stand on its own goes with it.
   void erase_observation(MapPointId point, KeyFrameId keyframe);
@@ -61,7 +65,8 @@ class Map {
   /// Recomputes descriptor, normal and distance range of a point from its observations.
   void refresh_point(MapPointId id);
 
-  // Covisibility graph and spanning tree ------------------------------------------------------------------------
+  // Covisibility graph and spanning tree
+  // ------------------------------------------------------------------------
   /// Recounts the keyframe's covisibility edges; the first time it also gets its parent in the spanning tree.
   void update_covisibility(KeyFrameId id);
   /// The n keyframes that share most points with this one.
@@ -69,7 +74,8 @@ class Map {
   /// Points of the keyframe that at least min_observations keyframes see.
   [[nodiscard]] int count_points(KeyFrameId id, std::size_t min_observations) const;
 
-  // Counts ------------------------------------------------------------------------------------------------------
+  // Counts
+  // ------------------------------------------------------------------------------------------------------
   [[nodiscard]] std::size_t n_keyframes() const { return keyframes_.size(); }
   [[nodiscard]] std::size_t n_points() const { return points_.size(); }
   [[nodiscard]] std::uint64_t keyframes_created() const { return keyframes_created_; }

@@ -23,9 +23,9 @@ struct SlotId {
   auto operator<=>(const SlotId&) const = default;
 };
 
-/// Generational slot map: O(1) insert, look-up and erase without hashing; elements keep their address; the slots
-/// of erased elements are used again, so memory follows the number of live elements. Iteration is by slot index,
-/// which makes it reproducible. Not thread-safe.
+/// Generational slot map: O(1) insert, look-up and erase without hashing; elements keep their address; the
+/// slots of erased elements are used again, so memory follows the number of live elements. Iteration is by
+/// slot index, which makes it reproducible. Not thread-safe.
 template <class T, class Tag>
 class SlotMap {
  public:

@@ -27,7 +27,8 @@ void offer(Nearest& nearest, int index, int distance) {
 bool distinct(const Nearest& nearest, const MatchOptions& options) {
   return nearest.index >= 0 && nearest.distance <= options.max_distance &&
          (nearest.second_distance == kWorst ||
-          static_cast<float>(nearest.distance) <= options.ratio * static_cast<float>(nearest.second_distance));
+          static_cast<float>(nearest.distance) <=
+              options.ratio * static_cast<float>(nearest.second_distance));
 }
 
 std::vector<KeypointMatch> drop_rotated(const KeypointSet& a, const KeypointSet& b,
@@ -71,9 +72,9 @@ std::vector<KeypointMatch> match_by_appearance(const KeypointSet& a, const Keypo
 }
 
 std::vector<KeypointMatch> match_by_epipolar_line(const KeypointSet& a, const KeypointSet& b,
-                                                  const EpipolarGeometry& geometry, const ScalePyramid& pyramid,
-                                                  const MatchOptions& options) {
-  constexpr double kChi2Line = 3.841;       // 95 % for one degree of freedom
+                                                  const EpipolarGeometry& geometry,
+                                                  const ScalePyramid& pyramid, const MatchOptions& options) {
+  constexpr double kChi2Line = 3.841;           // 95 % for one degree of freedom
   constexpr double kMinEpipoleDistance = 10.0;  // px at level 0
   std::vector<KeypointMatch> matches;
   std::vector<int> owner_distance(static_cast<std::size_t>(b.features.size()), kWorst);

@@ -20,9 +20,9 @@ Best most_alike(const FrameFeatures& frame, const ProjectionQuery& query, std::s
   for (const int candidate : candidates) {
     const auto i = static_cast<std::size_t>(candidate);
     if (!taken.empty() && taken[i] != 0) continue;
-    if (query.disparity > 0.0F && frame.depth_m[i] > 0.0F) {
-      const float disparity = frame.keypoints[i].x - frame.right_u[i];
-      if (std::abs(disparity - query.disparity) > query.radius) continue;
+    if (query.disparity > 0.0F && frame.disparity_px[i] > 0.0F &&
+        std::abs(frame.disparity_px[i] - query.disparity) > query.radius) {
+      continue;
     }
     const int distance = descriptor_distance(*query.descriptor, frame.descriptors[i]);
     if (distance < best.distance) {
@@ -34,17 +34,21 @@ Best most_alike(const FrameFeatures& frame, const ProjectionQuery& query, std::s
   }
   if (best.keypoint < 0 || best.distance > options.max_distance) return {};
   // Neighbouring octaves see the same corner, so only a rival of the same octave makes a match ambiguous.
-  const bool rival = second.keypoint >= 0 && frame.keypoints[static_cast<std::size_t>(second.keypoint)].octave ==
-                                                 frame.keypoints[static_cast<std::size_t>(best.keypoint)].octave;
-  if (rival && static_cast<float>(best.distance) > options.ratio * static_cast<float>(second.distance)) return {};
+  const bool rival =
+      second.keypoint >= 0 && frame.keypoints[static_cast<std::size_t>(second.keypoint)].octave ==
+                                  frame.keypoints[static_cast<std::size_t>(best.keypoint)].octave;
+  if (rival && static_cast<float>(best.distance) > options.ratio * static_cast<float>(second.distance))
+    return {};
   return best;
 }
 
-void drop_rotated(const FrameFeatures& frame, std::span<const ProjectionQuery> queries, std::vector<int>& matches) {
+void drop_rotated(const FrameFeatures& frame, std::span<const ProjectionQuery> queries,
+                  std::vector<int>& matches) {
   std::vector<float> differences;
   for (std::size_t q = 0; q < queries.size(); ++q) {
     if (matches[q] < 0) continue;
-    differences.push_back(queries[q].angle_deg - frame.keypoints[static_cast<std::size_t>(matches[q])].angle_deg);
+    differences.push_back(queries[q].angle_deg -
+                          frame.keypoints[static_cast<std::size_t>(matches[q])].angle_deg);
   }
   const std::vector<bool> agrees = agrees_with_majority(differences);
   std::size_t next = 0;
@@ -63,7 +67,8 @@ std::vector<int> match_by_projection(const FrameFeatures& frame, std::span<const
   for (std::size_t q = 0; q < queries.size(); ++q) {
     const ProjectionQuery& query = queries[q];
     candidates.clear();
-    frame.grid.query(query.uv.x(), query.uv.y(), query.radius, query.min_octave, query.max_octave, candidates);
+    frame.grid.query(query.uv.x(), query.uv.y(), query.radius, query.min_octave, query.max_octave,
+                     candidates);
     const Best best = most_alike(frame, query, candidates, taken, options);
     if (best.keypoint < 0) continue;
     Best& current = owner[static_cast<std::size_t>(best.keypoint)];

@@ -10,32 +10,36 @@
 
 namespace cpslam {
 
-/// Descriptor distances (of 256) below which two ORB descriptors may show the same point: the strict one where only
-/// appearance speaks for a match, the loose one where a good prediction does (Mur-Artal et al. 2015).
+/// Descriptor distances (of 256) below which two ORB descriptors may show the same point: the strict one
+/// where only appearance speaks for a match, the loose one where a good prediction does (Mur-Artal et al.
+/// 2015).
 inline constexpr int kStrictDistance = 50;
 inline constexpr int kLooseDistance = 100;
 
 /// Where and how a point is expected in a frame.
 struct ProjectionQuery {
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();  ///< undistorted px
-  float disparity = 0.0F;        ///< expected bf / depth, px; checked against keypoints that have depth when > 0
-  float radius = 0.0F;           ///< half side of the search window, px
+  float disparity = 0.0F;  ///< expected bf / depth, px; checked against keypoints that have depth when > 0
+  float radius = 0.0F;     ///< half side of the search window, px
   int min_octave = 0;
   int max_octave = 0;
-  float angle_deg = 0.0F;        ///< of the keypoint it was seen as before; used by check_rotation only
+  float angle_deg = 0.0F;  ///< of the keypoint it was seen as before; used by check_rotation only
   const Descriptor* descriptor = nullptr;
 };
 
 struct MatchOptions {
   int max_distance = kLooseDistance;
-  float ratio = 1.0F;            ///< best / second best of the same octave must be below; 1 accepts all
-  bool check_rotation = false;   ///< drop matches whose change of orientation disagrees with the majority
+  float ratio = 1.0F;           ///< best / second best of the same octave must be below; 1 accepts all
+  bool check_rotation = false;  ///< drop matches whose change of orientation disagrees with the majority
 };
 
-/// For every query the keypoint that looks most alike inside its window, or -1. A keypoint goes to one query, the
-/// closest in appearance (the first of equals). Keypoints with taken[i] != 0 are left out; an empty span takes none.
-[[nodiscard]] std::vector<int> match_by_projection(const FrameFeatures& frame, std::span<const ProjectionQuery> queries,
-                                                   std::span<const std::uint8_t> taken, const MatchOptions& options);
+/// For every query the keypoint that looks most alike inside its window, or -1. A keypoint goes to one query,
+/// the closest in appearance (the first of equals). Keypoints with taken[i] != 0 are left out; an empty span
+/// takes none.
+[[nodiscard]] std::vector<int> match_by_projection(const FrameFeatures& frame,
+                                                   std::span<const ProjectionQuery> queries,
+                                                   std::span<const std::uint8_t> taken,
+                                                   const MatchOptions& options);
 
 struct KeypointMatch {
   int a = -1;
@@ -58,8 +62,8 @@ struct EpipolarGeometry {
   Eigen::Vector2d epipole_in_b = Eigen::Vector2d::Zero();  ///< px; the image of camera a's centre
 };
 
-/// Pairs that look alike and lie on each other's epipolar lines, for triangulation. Keypoints without depth that
-/// are too near the epipole have no parallax and are left out.
+/// Pairs that look alike and lie on each other's epipolar lines, for triangulation. Keypoints without depth
+/// that are too near the epipole have no parallax and are left out.
 [[nodiscard]] std::vector<KeypointMatch> match_by_epipolar_line(const KeypointSet& a, const KeypointSet& b,
                                                                 const EpipolarGeometry& geometry,
                                                                 const ScalePyramid& pyramid,

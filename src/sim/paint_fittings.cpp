@@ -35,7 +35,7 @@ cv::Mat paint_door(Random& random) {
 
 cv::Mat paint_window_view(Random& random) {
   cv::Mat image(384, 512, CV_8UC3);
-  for (int y = 0; y < image.rows; ++y) image.row(y).setTo(cv::Scalar(252, 240 - y / 12, 225 - y / 8));
+  for (int y = 0; y < image.rows; ++y) image.row(y).setTo(cv::Scalar(252, 240 - y / 12.0, 225 - y / 8.0));
   for (int i = 0; i < 5; ++i) {
     const cv::Rect house(pick(random, 430), 130 + pick(random, 120), 70 + pick(random, 60), 260);
     const cv::Rect inside = house & cv::Rect(0, 0, image.cols, image.rows);

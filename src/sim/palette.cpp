@@ -11,6 +11,7 @@ using Painter = std::function<cv::Mat()>;
 
 std::vector<int> paint_several(SceneAssets& assets, int n, Texture::Wrap wrap, const Painter& painter) {
   std::vector<int> materials;
+  materials.reserve(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) materials.push_back(add_material(assets, painter(), wrap));
   return materials;
 }
@@ -54,7 +55,7 @@ Palette paint_palette(SceneAssets& assets, Random& random) {
     return paint_several(assets, n, Texture::Wrap::kClamp, [&] { return paint(random); });
   };
   palette.rugs = several(4, paint_rug);
-  palette.posters = several(20, paint_poster);
+  palette.posters = several(32, paint_poster);
   palette.papers = several(8, paint_paper);
   palette.spines = several(24, paint_book_spine);
   palette.covers = several(8, paint_book_cover);

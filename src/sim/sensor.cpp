@@ -17,7 +17,7 @@ float quick_normal(Random& random) {
   const auto sum = static_cast<std::int64_t>((bits & 0xFFFFU) + ((bits >> 16U) & 0xFFFFU) +
                                              ((bits >> 32U) & 0xFFFFU) + (bits >> 48U));
   constexpr float kScale = 1.7320508F / 65536.0F;
-  return static_cast<float>(sum - 2 * 65535) * kScale;
+  return static_cast<float>(sum - std::int64_t{131070}) * kScale;
 }
 
 // Unit variance, shared by neighbours as the windows of a stereo matcher share pixels.

@@ -50,6 +50,11 @@ void prepare_directory(const fs::path& directory, const WriteOptions& options) {
   }
 }
 
+// One "stamp file" line of rgb.txt and its like.
+void add_line(std::string& list, const std::string& name, const std::string& file) {
+  list.append(name).append(" ").append(file).append("\n");
+}
+
 }  // namespace
 
 void write_sequence(Simulation& simulation, const std::string& directory, const WriteOptions& options) {
@@ -67,13 +72,15 @@ void write_sequence(Simulation& simulation, const std::string& directory, const 
   for (int i = 0; i < simulation.size() && go_on; ++i) {
     const SimulatedFrame frame = simulation.render(i);
     const std::string name = stamp(frame.time_s);
-    write_image(root / "rgb" / (name + extension), frame.colour_bgr, colour);
+    std::string colour_file = "rgb/" + name;
+    colour_file += extension;
+    write_image(root / colour_file, frame.colour_bgr, colour);
     write_image(root / "depth" / (name + ".png"), frame.depth, png);
-    rgb_list += name + " rgb/" + name + extension + '\n';
-    depth_list += name + " depth/" + name + ".png\n";
+    add_line(rgb_list, name, colour_file);
+    add_line(depth_list, name, "depth/" + name + ".png");
     if (options.masks) {
       write_image(root / "masks" / (name + ".png"), frame.person_mask, png);
-      mask_list += name + " masks/" + name + ".png\n";
+      add_line(mask_list, name, "masks/" + name + ".png");
     }
     if (!frame.people.empty()) boxes.push_back({frame.time_s, frame.boxes()});
     truth.push_back({frame.time_s, to_pose(frame.world_from_camera)});

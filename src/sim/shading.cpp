@@ -18,7 +18,10 @@ float evaluate(const Eigen::Vector3f& plane, RayPx ray) {
 }
 
 Eigen::Array3f shade(const Triangle& triangle, const SceneAssets& assets, RayPx ray) {
-  const float z = 1.0F / evaluate(triangle.inverse_z, ray);
+  const float inverse_z = evaluate(triangle.inverse_z, ray);
+  if (!(inverse_z > 0.0F))
+    return Eigen::Array3f::Zero();  // a ray of a distorting lens just beyond the surface
+  const float z = 1.0F / inverse_z;
   TextureFootprint f;
   f.s = evaluate(triangle.s_over_z, ray) * z;
   f.t = evaluate(triangle.t_over_z, ray) * z;

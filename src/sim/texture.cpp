@@ -85,20 +85,27 @@ Eigen::Array3f Texture::sample(const TextureFootprint& f) const {
   const float a2 = ax * ax + ay * ay;
   const float b2 = bx * bx + by * by;
   const float long2 = std::max(a2, b2);
-  const bool repeat = wrap_ == Wrap::kRepeat;
-  const float s0 = repeat ? f.s - static_cast<float>(floor_to_int(f.s)) : f.s;
-  const float t0 = repeat ? f.t - static_cast<float>(floor_to_int(f.t)) : f.t;
-  if (!(long2 > 1.0F)) {  // magnified, or a degenerate footprint
+  // A surface seen edge-on may give any number, none of which may become an index.
+  constexpr float kMostTiles = 1e4F;
+  constexpr float kLargestFootprint2 = 1e12F;
+  const auto first_tile = [this](float x) {
+    if (!(std::abs(x) < kMostTiles)) return 0.0F;
+    return wrap_ == Wrap::kRepeat ? x - static_cast<float>(floor_to_int(x)) : x;
+  };
+  const float s0 = first_tile(f.s);
+  const float t0 = first_tile(f.t);
+  if (!(long2 > 1.0F && long2 < kLargestFootprint2)) {  // magnified, or a degenerate footprint
     const Lanes colour = bilinear(levels_.front(), s0, t0);
     return {colour[0], colour[1], colour[2]};
   }
-  const float ratio2 = long2 / std::max(std::min(a2, b2), 1e-12F);
-  const float n_probes = std::min(static_cast<float>(floor_to_int(std::sqrt(ratio2) + 0.5F)), kMaxProbes);
+  const float ratio = std::sqrt(long2 / std::max(std::min(a2, b2), 1e-12F));
+  const auto n_probes = static_cast<float>(std::lrint(std::min(ratio, kMaxProbes)));
   const float lod = std::max(0.0F, 0.5F * std::log2(long2 / (n_probes * n_probes)));
   const float clamped = std::min(lod, static_cast<float>(levels_.size() - 1));
   const auto fine = static_cast<std::size_t>(clamped);
   const std::size_t coarse = std::min(fine + 1, levels_.size() - 1);
-  const float weight = clamped - static_cast<float>(fine);
+  // Blends over the middle of the way between two levels only: near either, one look-up is enough.
+  const float weight = std::clamp(2.0F * (clamped - static_cast<float>(fine)) - 0.5F, 0.0F, 1.0F);
   const bool along_x = a2 >= b2;
   // A footprint longer than the picture is its mean anyway.
   const float step_s = std::clamp(along_x ? f.ds_dx : f.ds_dy, -1.0F, 1.0F) / n_probes;
@@ -107,7 +114,7 @@ Eigen::Array3f Texture::sample(const TextureFootprint& f) const {
   for (float i = 0.5F - 0.5F * n_probes; i < 0.5F * n_probes; i += 1.0F) {
     const float s = s0 + i * step_s;
     const float t = t0 + i * step_t;
-    sum += (1.0F - weight) * bilinear(levels_[fine], s, t);
+    if (weight < 1.0F) sum += (1.0F - weight) * bilinear(levels_[fine], s, t);
     if (weight > 0.0F) sum += weight * bilinear(levels_[coarse], s, t);
   }
   sum /= n_probes;

@@ -45,7 +45,8 @@ void check_images(const cv::Mat& colour, const cv::Mat& depth, const CameraSetti
                      ": depth must be registered to colour");
   }
   if (colour.cols != camera.width || colour.rows != camera.height) {
-    throw InputError("the images are " + size_text(colour) + ", but the settings' Camera.width and Camera.height say " +
+    throw InputError("the images are " + size_text(colour) +
+                     ", but the settings' Camera.width and Camera.height say " +
                      std::to_string(camera.width) + "x" + std::to_string(camera.height));
   }
 }

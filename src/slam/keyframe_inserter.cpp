@@ -41,7 +41,8 @@ KeyFrameId insert_keyframe(const Rig& rig, Map& map, Frame& frame) {
   const KeyFrameId id = map.add_keyframe(std::move(keyframe));
   for (std::size_t i = 0; i < frame.matches.size(); ++i) {
     PointMatch& match = frame.matches[i];
-    if (match.kind == PointMatch::Kind::kMapPoint && !map.add_observation(match.id, {id, static_cast<int>(i)})) {
+    if (match.kind == PointMatch::Kind::kMapPoint &&
+        !map.add_observation(match.id, {id, static_cast<int>(i)})) {
       match = {};  // erased by the mapper since it was matched
     }
   }

@@ -24,7 +24,9 @@ struct LocalBundle {
 
 class Builder {
  public:
-  Builder(const Rig& rig, const Map& map) : rig_(rig), map_(map) { bundle_.problem.camera = rig.reprojection; }
+  Builder(const Rig& rig, const Map& map) : rig_(rig), map_(map) {
+    bundle_.problem.camera = rig.reprojection;
+  }
 
   LocalBundle build(KeyFrameId centre) {
     if (map_.keyframe(centre) == nullptr) return std::move(bundle_);
@@ -80,7 +82,8 @@ class Builder {
         const auto pose = pose_index_.find(seen.keyframe);
         if (pose == pose_index_.end()) continue;
         bundle_.problem.observations.push_back(
-            {pose->second, static_cast<int>(p), observe(rig_, *map_.keyframe(seen.keyframe)->features, seen.keypoint)});
+            {pose->second, static_cast<int>(p),
+             observe(rig_, *map_.keyframe(seen.keyframe)->features, seen.keypoint)});
       }
     }
   }
@@ -88,9 +91,10 @@ class Builder {
   /// A young map has no keyframe outside: then its oldest one stays where it is.
   void hold_gauge() {
     auto& fixed = bundle_.problem.pose_fixed;
-    const auto oldest = std::min_element(
-        bundle_.keyframes.begin(), bundle_.keyframes.end(),
-        [this](KeyFrameId a, KeyFrameId b) { return map_.keyframe(a)->sequence < map_.keyframe(b)->sequence; });
+    const auto oldest = std::min_element(bundle_.keyframes.begin(), bundle_.keyframes.end(),
+                                         [this](KeyFrameId a, KeyFrameId b) {
+                                           return map_.keyframe(a)->sequence < map_.keyframe(b)->sequence;
+                                         });
     const auto index = static_cast<std::size_t>(oldest - bundle_.keyframes.begin());
     if (map_.keyframe(*oldest)->sequence == 0 || std::find(fixed.begin(), fixed.end(), 1) == fixed.end()) {
       fixed[index] = 1;

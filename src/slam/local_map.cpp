@@ -41,10 +41,11 @@ void LocalMap::centre_on(const Map& map, KeyFrameId keyframe) {
 }
 
 void LocalMap::copy(const Map& map, const std::vector<KeyFrameId>& seeds) {
-  std::vector<KeyFrameId> keyframes(seeds.begin(),
-                                    seeds.begin() + static_cast<std::ptrdiff_t>(std::min(seeds.size(), kMaxKeyframes)));
+  std::vector<KeyFrameId> keyframes(
+      seeds.begin(), seeds.begin() + static_cast<std::ptrdiff_t>(std::min(seeds.size(), kMaxKeyframes)));
   const auto add = [&](KeyFrameId id) {
-    if (keyframes.size() < kMaxKeyframes && std::find(keyframes.begin(), keyframes.end(), id) == keyframes.end()) {
+    if (keyframes.size() < kMaxKeyframes &&
+        std::find(keyframes.begin(), keyframes.end(), id) == keyframes.end()) {
       keyframes.push_back(id);
     }
   };

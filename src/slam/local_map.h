@@ -10,11 +10,13 @@
 
 namespace cpslam {
 
-/// Tracking's own copy of the part of the map around the camera, so that matching needs no lock. Not thread-safe.
+/// Tracking's own copy of the part of the map around the camera, so that matching needs no lock. Not
+/// thread-safe.
 class LocalMap {
  public:
-  /// Gathers the keyframes that see the frame's map points, their neighbours, and the points of all of them. Copies
-  /// only when the reference keyframe or the map changed. Without any match the old copy stays. Takes a shared lock.
+  /// Gathers the keyframes that see the frame's map points, their neighbours, and the points of all of them.
+  /// Copies only when the reference keyframe or the map changed. Without any match the old copy stays. Takes
+  /// a shared lock.
   void update(const Map& map, const Frame& frame);
   /// The same around a given keyframe.
   void centre_on(const Map& map, KeyFrameId keyframe);
@@ -36,13 +38,13 @@ class LocalMap {
 };
 
 struct LocalMapMatch {
-  int inliers = 0;                    ///< map points that agree with the optimised pose
-  std::vector<MapPointId> expected;   ///< points that should be visible
+  int inliers = 0;                   ///< map points that agree with the optimised pose
+  std::vector<MapPointId> expected;  ///< points that should be visible
 };
 
-/// Matches the local map's points into the frame around its present pose, optimises the pose on all matches with map
-/// points and drops those that disagree. Temporary matches go before the optimisation. window scales the search
-/// windows.
+/// Matches the local map's points into the frame around its present pose, optimises the pose on all matches
+/// with map points and drops those that disagree. Temporary matches go before the optimisation. window scales
+/// the search windows.
 LocalMapMatch track_local_map(const Rig& rig, const LocalMap& local_map, float window, Frame& frame);
 
 }  // namespace cpslam

@@ -40,7 +40,8 @@ LocalMapMatch track_local_map(const Rig& rig, const LocalMap& local_map, float w
     result.expected.push_back(point.id);
   }
   std::vector<std::uint8_t> taken(frame.matches.size(), 0);
-  for (std::size_t i = 0; i < taken.size(); ++i) taken[i] = frame.matches[i].kind == PointMatch::Kind::kNone ? 0 : 1;
+  for (std::size_t i = 0; i < taken.size(); ++i)
+    taken[i] = frame.matches[i].kind == PointMatch::Kind::kNone ? 0 : 1;
   MatchOptions options;
   options.ratio = 0.8F;
   const std::vector<int> found = match_by_projection(*frame.features, queries, taken, options);

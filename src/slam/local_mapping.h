@@ -4,15 +4,15 @@
 #include <vector>
 
 #include "map/map.h"
-#include "slam/rig.h"
 #include "slam/recent_points.h"
+#include "slam/rig.h"
 #include "util/stage_timer.h"
 
 namespace cpslam {
 
 /// Works a new keyframe into the map: checks recent points, makes new ones, fuses duplicates, adjusts the
-/// neighbourhood and frees keyframes that add nothing (Mur-Artal et al. 2015, section VI). One thread; holds the
-/// map's lock only to copy and to write back.
+/// neighbourhood and frees keyframes that add nothing (Mur-Artal et al. 2015, section VI). One thread; holds
+/// the map's lock only to copy and to write back.
 class LocalMapping {
  public:
   LocalMapping(const Rig& rig, Map& map, StageTimer& timer) : rig_(rig), map_(map), timer_(timer) {}

@@ -54,7 +54,8 @@ void add_temporary_points(const Rig& rig, Frame& frame) {
   const SE3 world_from_cam = frame.cam_from_world.inverse();
   for (std::size_t i = 0; i < frame.matches.size(); ++i) {
     const double depth_m = frame.features->depth_m[i];
-    if (frame.matches[i].kind != PointMatch::Kind::kNone || depth_m <= 0.0 || depth_m > rig.close_depth_m) continue;
+    if (frame.matches[i].kind != PointMatch::Kind::kNone || depth_m <= 0.0 || depth_m > rig.close_depth_m)
+      continue;
     frame.matches[i] = {PointMatch::Kind::kTemporary, MapPointId{},
                         world_from_cam * back_project(rig, *frame.features, static_cast<int>(i))};
   }

@@ -9,9 +9,11 @@ namespace {
 
 // Localisation error of a FAST corner at its own pyramid level, px.
 constexpr double kKeypointSigmaPx = 1.0;
-// Disparity noise below this is not believed: registration of depth to colour and the shutter offset between the
-// two sensors are not in the sensor's noise model.
-constexpr double kMinDisparitySigmaPx = 0.5;
+// A corner mostly lies on an object's rim, where registration errors, bleeding depth edges and the two
+// sensors' different shutters count far more than the noise of the depth sensor on a surface. So no disparity
+// is believed to better than this, at the keypoint's own pyramid level; docs/benchmarks.md has the
+// measurement behind it.
+constexpr double kMinDisparitySigmaPx = 3.0;
 
 }  // namespace
 
@@ -20,11 +22,12 @@ PointObservation observe(const Rig& rig, const FrameFeatures& features, int keyp
   const Keypoint& k = features.keypoints[i];
   PointObservation seen;
   seen.uv = {k.x, k.y};
-  seen.sigma_px = kKeypointSigmaPx * rig.pyramid.factor[static_cast<std::size_t>(k.octave)];
+  const double level_scale = rig.pyramid.factor[static_cast<std::size_t>(k.octave)];
+  seen.sigma_px = kKeypointSigmaPx * level_scale;
   if (const double depth_m = features.depth_m[i]; depth_m > 0.0) {
-    seen.disparity = rig.camera.bf() / depth_m;
-    seen.sigma_disparity_px =
-        std::max(kMinDisparitySigmaPx, seen.disparity / depth_m * static_cast<double>(features.depth_sigma_m[i]));
+    seen.disparity = features.disparity_px[i];
+    const double sensor_sigma_px = seen.disparity / depth_m * static_cast<double>(features.depth_sigma_m[i]);
+    seen.sigma_disparity_px = std::max(kMinDisparitySigmaPx * level_scale, sensor_sigma_px);
   }
   return seen;
 }
@@ -40,7 +43,8 @@ double chi2(const Rig& rig, const PointObservation& seen, const Eigen::Vector3d&
   const Eigen::Vector2d error = (seen.uv - rig.camera.project(point_in_camera)) / seen.sigma_px;
   double sum = error.squaredNorm();
   if (seen.has_depth()) {
-    const double disparity_error = (seen.disparity - rig.camera.bf() / point_in_camera.z()) / seen.sigma_disparity_px;
+    const double disparity_error =
+        (seen.disparity - rig.camera.bf() / point_in_camera.z()) / seen.sigma_disparity_px;
     sum += disparity_error * disparity_error;
   }
   return sum;

@@ -6,15 +6,17 @@
 
 namespace cpslam {
 
-/// The keypoint as a measurement: pixel noise grows with the pyramid level; the virtual disparity's noise is the
-/// depth sensor's, carried through bf / depth.
+/// The keypoint as a measurement: pixel noise grows with the pyramid level; the virtual disparity's noise is
+/// the depth sensor's, carried through bf / depth.
 [[nodiscard]] PointObservation observe(const Rig& rig, const FrameFeatures& features, int keypoint);
 
 /// Where the keypoint's point lies in the camera frame (m); the keypoint must have depth.
 [[nodiscard]] Eigen::Vector3d back_project(const Rig& rig, const FrameFeatures& features, int keypoint);
 
-/// Squared error over variance of a point in the camera frame against the keypoint; infinite behind the camera.
-[[nodiscard]] double chi2(const Rig& rig, const PointObservation& seen, const Eigen::Vector3d& point_in_camera);
+/// Squared error over variance of a point in the camera frame against the keypoint; infinite behind the
+/// camera.
+[[nodiscard]] double chi2(const Rig& rig, const PointObservation& seen,
+                          const Eigen::Vector3d& point_in_camera);
 
 /// The 95 % gate that goes with chi2.
 [[nodiscard]] inline double chi2_gate(const PointObservation& seen) {

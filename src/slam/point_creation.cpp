@@ -43,7 +43,8 @@ EpipolarGeometry epipolar_geometry(const Rig& rig, const View& a, const View& b)
   k << rig.camera.fx(), 0.0, rig.camera.cx(), 0.0, rig.camera.fy(), rig.camera.cy(), 0.0, 0.0, 1.0;
   const Eigen::Matrix3d k_inverse = k.inverse();
   EpipolarGeometry geometry;
-  geometry.fundamental_ba = k_inverse.transpose() * skew(b_from_a.translation) * b_from_a.rotation * k_inverse;
+  geometry.fundamental_ba =
+      k_inverse.transpose() * skew(b_from_a.translation) * b_from_a.rotation * k_inverse;
   const Eigen::Vector3d epipole = k * b_from_a.translation;
   // A sideways motion has its epipole at infinity: nothing is near it.
   geometry.epipole_in_b = std::abs(epipole.z()) > 1e-9 ? Eigen::Vector2d(epipole.head<2>() / epipole.z())
@@ -103,7 +104,8 @@ bool agrees(const Rig& rig, const View& view, int keypoint, const Eigen::Vector3
 }
 
 /// The ratio of distances must fit the ratio of pyramid levels.
-bool scale_agrees(const Rig& rig, const View& a, int in_a, const View& b, int in_b, const Eigen::Vector3d& point) {
+bool scale_agrees(const Rig& rig, const View& a, int in_a, const View& b, int in_b,
+                  const Eigen::Vector3d& point) {
   const double distance_a = (point - a.world_from_cam.translation).norm();
   const double distance_b = (point - b.world_from_cam.translation).norm();
   if (distance_a <= 0.0 || distance_b <= 0.0) return false;
@@ -129,7 +131,8 @@ double median_depth(const Map& map, const KeyFrame& keyframe) {
   return *middle;
 }
 
-/// The neighbours far enough away to give parallax; depth gives what the virtual baseline gives without moving.
+/// The neighbours far enough away to give parallax; depth gives what the virtual baseline gives without
+/// moving.
 std::vector<KeyFrameId> useful_neighbours(const Rig& rig, const Map& map, KeyFrameId id) {
   std::vector<KeyFrameId> useful;
   const KeyFrame* keyframe = map.keyframe(id);
@@ -137,7 +140,8 @@ std::vector<KeyFrameId> useful_neighbours(const Rig& rig, const Map& map, KeyFra
   const double baseline_of_sensor_m = rig.camera.bf() / rig.camera.fx();
   for (const KeyFrameId other : map.best_covisible(id, kNeighbours)) {
     const double baseline_m = (map.keyframe(other)->centre_in_world() - keyframe->centre_in_world()).norm();
-    if (baseline_m >= std::min(baseline_of_sensor_m, 0.01 * median_depth(map, *keyframe))) useful.push_back(other);
+    if (baseline_m >= std::min(baseline_of_sensor_m, 0.01 * median_depth(map, *keyframe)))
+      useful.push_back(other);
   }
   return useful;
 }

@@ -35,7 +35,8 @@ std::vector<KeyFrameId> fusion_neighbours(const Map& map, KeyFrameId id) {
 }
 
 /// Points of the sources, each once, but for those the target sees already.
-std::vector<PointSnapshot> candidates_for(const Map& map, const std::vector<KeyFrameId>& sources, KeyFrameId target) {
+std::vector<PointSnapshot> candidates_for(const Map& map, const std::vector<KeyFrameId>& sources,
+                                          KeyFrameId target) {
   std::vector<MapPointId> ids;
   for (const KeyFrameId source : sources) {
     if (const KeyFrame* keyframe = map.keyframe(source)) {
@@ -59,7 +60,8 @@ struct Fusion {
   int keypoint;
 };
 
-std::vector<Fusion> find_fusions(const Rig& rig, const std::vector<PointSnapshot>& candidates, const Target& target) {
+std::vector<Fusion> find_fusions(const Rig& rig, const std::vector<PointSnapshot>& candidates,
+                                 const Target& target) {
   const Eigen::Vector3d centre = target.cam_from_world.inverse().translation;
   std::vector<ProjectionQuery> queries;
   std::vector<const PointSnapshot*> sources;

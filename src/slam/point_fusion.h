@@ -5,9 +5,9 @@
 
 namespace cpslam {
 
-/// Finds the keyframe's points in its neighbours (and their neighbours), and theirs in it: a keypoint without a point
-/// gains the observation, two points for one keypoint become one. Afterwards the keyframe's covisibility is recounted.
-/// Takes shared locks to copy and unique ones to write.
+/// Finds the keyframe's points in its neighbours (and their neighbours), and theirs in it: a keypoint without
+/// a point gains the observation, two points for one keypoint become one. Afterwards the keyframe's
+/// covisibility is recounted. Takes shared locks to copy and unique ones to write.
 void fuse_points(const Rig& rig, Map& map, KeyFrameId keyframe);
 
 }  // namespace cpslam

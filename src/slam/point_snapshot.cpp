@@ -4,8 +4,9 @@
 
 namespace cpslam {
 
-std::optional<ProjectionQuery> expect_point(const Rig& rig, const PointSnapshot& point, const SE3& cam_from_world,
-                                            const Eigen::Vector3d& centre_in_world, SearchWindow window) {
+std::optional<ProjectionQuery> expect_point(const Rig& rig, const PointSnapshot& point,
+                                            const SE3& cam_from_world, const Eigen::Vector3d& centre_in_world,
+                                            SearchWindow window) {
   constexpr double kMinViewingCosine = 0.5;
   constexpr double kFrontalCosine = 0.998;
   const Eigen::Vector3d in_camera = cam_from_world * point.position_in_world;

@@ -59,7 +59,8 @@ std::optional<RansacPose> ransac_pose(const Rig& rig, const FrameFeatures& featu
     }
     if (inliers.size() <= best.inliers.size()) continue;
     best = {cam_from_world, std::move(inliers)};
-    needed = iterations_needed(static_cast<double>(best.inliers.size()) / static_cast<double>(matches.size()));
+    needed =
+        iterations_needed(static_cast<double>(best.inliers.size()) / static_cast<double>(matches.size()));
   }
   if (best.inliers.size() < min_inliers) return std::nullopt;
   return best;

@@ -22,9 +22,9 @@ struct RansacPose {
   std::vector<std::size_t> inliers;  ///< indices into the matches
 };
 
-/// Camera pose from matches of which many may be wrong, with no start: RANSAC (Fischler and Bolles 1981) over rigid
-/// alignments of three matches whose keypoints have depth; keypoints without depth take part in the vote. Nothing
-/// when no pose has at least min_inliers.
+/// Camera pose from matches of which many may be wrong, with no start: RANSAC (Fischler and Bolles 1981) over
+/// rigid alignments of three matches whose keypoints have depth; keypoints without depth take part in the
+/// vote. Nothing when no pose has at least min_inliers.
 [[nodiscard]] std::optional<RansacPose> ransac_pose(const Rig& rig, const FrameFeatures& features,
                                                     std::span<const PoseHypothesisMatch> matches,
                                                     std::size_t min_inliers, Random& random);

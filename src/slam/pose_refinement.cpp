@@ -10,7 +10,8 @@ RefinedPose refine_pose(const Rig& rig, Frame& frame) {
   std::vector<std::size_t> keypoints;
   for (std::size_t i = 0; i < frame.matches.size(); ++i) {
     if (frame.matches[i].kind == PointMatch::Kind::kNone) continue;
-    observations.push_back({frame.matches[i].position_in_world, observe(rig, *frame.features, static_cast<int>(i))});
+    observations.push_back(
+        {frame.matches[i].position_in_world, observe(rig, *frame.features, static_cast<int>(i))});
     keypoints.push_back(i);
   }
   const PoseSolverResult solved = solve_pose(rig.reprojection, frame.cam_from_world, observations);

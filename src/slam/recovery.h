@@ -7,13 +7,15 @@
 
 namespace cpslam {
 
-/// Tries to place a frame against one keyframe by appearance alone, with no predicted pose. On success the frame has
-/// a pose and matches with the keyframe's points; returns their number, else 0 and the frame has no matches. Takes a
-/// shared lock of the map.
+/// Tries to place a frame against one keyframe by appearance alone, with no predicted pose. On success the
+/// frame has a pose and matches with the keyframe's points; returns their number, else 0 and the frame has no
+/// matches. Takes a shared lock of the map.
 int recover_from_keyframe(const Rig& rig, const Map& map, KeyFrameId keyframe, Random& random, Frame& frame);
 
-/// Keyframes worth trying, best first: the reference and those around it, then the latest, then older ones in turn
-/// (attempt counts the frames since tracking was lost, so that in time all are tried). Takes a shared lock.
-[[nodiscard]] std::vector<KeyFrameId> recovery_candidates(const Map& map, KeyFrameId reference, std::size_t attempt);
+/// Keyframes worth trying, best first: the reference and those around it, then the latest, then older ones in
+/// turn (attempt counts the frames since tracking was lost, so that in time all are tried). Takes a shared
+/// lock.
+[[nodiscard]] std::vector<KeyFrameId> recovery_candidates(const Map& map, KeyFrameId reference,
+                                                          std::size_t attempt);
 
 }  // namespace cpslam

@@ -25,8 +25,11 @@ Settings checked(const Settings& settings) {
 class System::Impl {
  public:
   Impl(const Settings& settings, LogSink log)
-      : log_(std::move(log)), rig_(checked(settings)), map_(rig_.pyramid),
-        features_(rig_.settings.camera, rig_.settings.orb), mapping_(rig_, map_, timer_),
+      : log_(std::move(log)),
+        rig_(checked(settings)),
+        map_(rig_.pyramid),
+        features_(rig_.settings.camera, rig_.settings.orb),
+        mapping_(rig_, map_, timer_),
         tracking_(rig_, map_, timer_, log_) {
     if (rig_.settings.sequential) return;
     mapper_.emplace(
@@ -43,8 +46,8 @@ class System::Impl {
     if (mapper_) mapper_->stop(OnStop::kDrop);
   }
 
-  TrackResult track(const cv::Mat& colour, const cv::Mat& depth, double time_s) {
-    check_input(colour, depth, time_s);
+  TrackResult track(const cv::Mat& colour, const cv::Mat& depth, double time_s, double depth_time_s) {
+    check_input(colour, depth, time_s, depth_time_s);
     if (!last_time_s_) warn_about_depth_scale(depth, rig_.settings.camera.depth_map_factor, log_);
     last_time_s_ = time_s;
     TrackResult result;
@@ -53,7 +56,7 @@ class System::Impl {
       std::shared_ptr<const FrameFeatures> features;
       {
         const auto extraction = timer_.time("track: features");
-        features = features_.build(to_grey(colour), depth);
+        features = features_.build(to_grey(colour), depth, tracking_.expected_motion(depth_time_s - time_s));
       }
       result = tracking_.track(time_s, std::move(features), mapper_load());
     }
@@ -87,13 +90,14 @@ class System::Impl {
   }
 
  private:
-  void check_input(const cv::Mat& colour, const cv::Mat& depth, double time_s) const {
+  void check_input(const cv::Mat& colour, const cv::Mat& depth, double time_s, double depth_time_s) const {
     if (finished_) throw RunError("track() was called after shutdown()");
     check_images(colour, depth, rig_.settings.camera);
-    if (!std::isfinite(time_s)) throw InputError("the frame's time stamp is not a finite number");
+    if (!std::isfinite(time_s) || !std::isfinite(depth_time_s))
+      throw InputError("the frame's time stamp is not a finite number");
     if (last_time_s_ && time_s <= *last_time_s_) {
-      throw InputError("the frame's time stamp " + std::to_string(time_s) + " does not come after the last one's " +
-                       std::to_string(*last_time_s_));
+      throw InputError("the frame's time stamp " + std::to_string(time_s) +
+                       " does not come after the last one's " + std::to_string(*last_time_s_));
     }
   }
 
@@ -102,8 +106,8 @@ class System::Impl {
       mapping_.process(id, abort_);
       return;
     }
-    // In real time a new keyframe is worth more than the last iterations of the bundle adjustment under way; offline
-    // the bundle adjustment is finished and a full queue makes us wait.
+    // In real time a new keyframe is worth more than the last iterations of the bundle adjustment under way;
+    // offline the bundle adjustment is finished and a full queue makes us wait.
     if (rig_.settings.realtime) abort_ = true;
     const auto scope = timer_.time("wait for mapper");
     mapper_->push(id);
@@ -120,10 +124,18 @@ class System::Impl {
   void count(TrackingState state) {
     ++counts_.frames;
     switch (state) {
-      case TrackingState::kTracked: ++counts_.tracked; break;
-      case TrackingState::kPredicted: ++counts_.predicted; break;
-      case TrackingState::kLost: ++counts_.lost; break;
-      case TrackingState::kNotInitialized: ++counts_.not_initialized; break;
+      case TrackingState::kTracked:
+        ++counts_.tracked;
+        break;
+      case TrackingState::kPredicted:
+        ++counts_.predicted;
+        break;
+      case TrackingState::kLost:
+        ++counts_.lost;
+        break;
+      case TrackingState::kNotInitialized:
+        ++counts_.not_initialized;
+        break;
     }
   }
 
@@ -141,14 +153,26 @@ class System::Impl {
   bool finished_ = false;
 };
 
-System::System(const Settings& settings, LogSink log) : impl_(std::make_unique<Impl>(settings, std::move(log))) {}
+System::System(const Settings& settings, LogSink log)
+    : impl_(std::make_unique<Impl>(settings, std::move(log))) {}
 System::~System() = default;
 TrackResult System::track(const cv::Mat& colour, const cv::Mat& depth, double time_s) {
-  return impl_->track(colour, depth, time_s);
+  return impl_->track(colour, depth, time_s, time_s);
 }
-void System::shutdown() { impl_->shutdown(); }
-Trajectory System::trajectory() const { return impl_->trajectory(); }
-Trajectory System::keyframe_trajectory() const { return impl_->keyframe_trajectory(); }
-Statistics System::statistics() const { return impl_->statistics(); }
+TrackResult System::track(const cv::Mat& colour, const cv::Mat& depth, double time_s, double depth_time_s) {
+  return impl_->track(colour, depth, time_s, depth_time_s);
+}
+void System::shutdown() {
+  impl_->shutdown();
+}
+Trajectory System::trajectory() const {
+  return impl_->trajectory();
+}
+Trajectory System::keyframe_trajectory() const {
+  return impl_->keyframe_trajectory();
+}
+Statistics System::statistics() const {
+  return impl_->statistics();
+}
 
 }  // namespace cpslam

@@ -17,15 +17,15 @@ namespace {
 constexpr float kMotionWindowsPx[] = {15.0F, 30.0F, 60.0F};
 // A prediction is worth handing out for a third of a second; after that the camera may be anywhere.
 constexpr double kPredictionS = 0.34;
-// Keyframes seen by at least this many views establish a point.
-constexpr std::size_t kEstablishedViews = 2;
 
 }  // namespace
 
 Tracking::Tracking(const Rig& rig, Map& map, StageTimer& timer, Log log)
     : rig_(rig), map_(map), timer_(timer), log_(std::move(log)), random_(rig.settings.seed) {}
 
-KeyFrameId Tracking::take_keyframe() { return std::exchange(new_keyframe_, KeyFrameId{}); }
+KeyFrameId Tracking::take_keyframe() {
+  return std::exchange(new_keyframe_, KeyFrameId{});
+}
 
 TrackResult Tracking::track(double time_s, std::shared_ptr<const FrameFeatures> features, MapperLoad load) {
   Frame frame;
@@ -42,6 +42,7 @@ TrackResult Tracking::track(double time_s, std::shared_ptr<const FrameFeatures> 
     finish_tracked(std::move(frame), result);
   } else if (place(frame)) {
     count_visible(frame);
+    best_inliers_ = std::max(best_inliers_, inliers_);
     result.keyframe = should_insert(frame, load);
     if (result.keyframe) insert(frame);
     finish_tracked(std::move(frame), result);
@@ -56,9 +57,10 @@ bool Tracking::initialize(Frame& frame) {
   const auto with_depth = std::count_if(depths.begin(), depths.end(), [](float d) { return d > 0.0F; });
   if (with_depth < rig_.settings.tracking.min_initial_points) return false;
   insert(frame);
-  inliers_ = static_cast<int>(std::count_if(frame.matches.begin(), frame.matches.end(), [](const PointMatch& m) {
-    return m.kind == PointMatch::Kind::kMapPoint;
-  }));
+  inliers_ =
+      static_cast<int>(std::count_if(frame.matches.begin(), frame.matches.end(), [](const PointMatch& m) {
+        return m.kind == PointMatch::Kind::kMapPoint;
+      }));
   log_.info("map started with " + std::to_string(inliers_) + " points");
   return true;
 }
@@ -133,11 +135,7 @@ bool Tracking::should_insert(const Frame& frame, MapperLoad load) const {
     const bool tracked = frame.matches[i].kind == PointMatch::Kind::kMapPoint;
     ++(tracked ? evidence.close_tracked : evidence.close_untracked);
   }
-  {
-    const std::shared_lock lock(map_.mutex());
-    evidence.reference_points = map_.count_points(local_map_.reference(), kEstablishedViews);
-    evidence.only_one_keyframe = map_.n_keyframes() == 1;
-  }
+  evidence.best_inliers = best_inliers_;
   evidence.mapper_load = load;
   return wants_keyframe(evidence);
 }
@@ -146,6 +144,7 @@ void Tracking::insert(Frame& frame) {
   const auto scope = timer_.time("track: keyframe");
   new_keyframe_ = insert_keyframe(rig_, map_, frame);
   local_map_.centre_on(map_, new_keyframe_);
+  best_inliers_ = 0;
 }
 
 void Tracking::finish_tracked(Frame frame, TrackResult& result) {
@@ -170,7 +169,8 @@ void Tracking::finish_tracked(Frame frame, TrackResult& result) {
 void Tracking::finish_untracked(const Frame& frame, TrackResult& result) {
   ++frames_without_pose_;
   const bool predictable = frame.time_s - last_.time_s <= kPredictionS;
-  if (!predictable && state_ != TrackingState::kLost) log_.warning("tracking lost; looking for known keyframes");
+  if (!predictable && state_ != TrackingState::kLost)
+    log_.warning("tracking lost; looking for known keyframes");
   state_ = predictable ? TrackingState::kPredicted : TrackingState::kLost;
   result.state = state_;
   result.n_inliers = 0;
@@ -178,11 +178,15 @@ void Tracking::finish_untracked(const Frame& frame, TrackResult& result) {
 }
 
 SE3 Tracking::predicted_pose(double time_s) const {
-  if (velocity_interval_s_ <= 0.0) return last_.cam_from_world;
-  // Constant velocity, scaled to the time that really passed: frames get dropped.
-  const double steps = (time_s - last_.time_s) / velocity_interval_s_;
+  return expected_motion(time_s - last_.time_s) * last_.cam_from_world;
+}
+
+SE3 Tracking::expected_motion(double dt_s) const {
+  if (velocity_interval_s_ <= 0.0) return {};
+  // Constant velocity, scaled to the time that really passed: frames get dropped. Not for long: it is a
+  // guess.
   constexpr double kMaxSteps = 3.0;
-  return SE3::exp(std::min(steps, kMaxSteps) * velocity_.log()) * last_.cam_from_world;
+  return SE3::exp(std::min(dt_s / velocity_interval_s_, kMaxSteps) * velocity_.log());
 }
 
 }  // namespace cpslam

@@ -23,9 +23,13 @@ class Tracking {
   /// load: what the mapper has to do, as far as it may influence the decision for a keyframe.
   TrackResult track(double time_s, std::shared_ptr<const FrameFeatures> features, MapperLoad load);
 
-  /// The keyframe that the last call of track() put into the map, for the mapper; invalid when there is none or it was
-  /// taken before.
+  /// The keyframe that the last call of track() put into the map, for the mapper; invalid when there is none
+  /// or it was taken before.
   [[nodiscard]] KeyFrameId take_keyframe();
+
+  /// How the camera is expected to move in dt_s after the last frame (later_from_earlier; dt_s may be
+  /// negative): identity while its velocity is unknown.
+  [[nodiscard]] SE3 expected_motion(double dt_s) const;
 
   [[nodiscard]] Trajectory trajectory() const { return trajectory_.resolve(map_); }
 
@@ -52,10 +56,11 @@ class Tracking {
   LocalMap local_map_;
   std::vector<MapPointId> expected_;  // points of the local map that the frame at hand should show
   int inliers_ = 0;                   // of the frame at hand
+  int best_inliers_ = 0;              // of the frames since the last keyframe
   Frame last_;                        // the latest frame with a pose of its own
   KeyFrameId last_reference_;         // keyframe that last_'s pose hangs on
   SE3 last_from_reference_;
-  SE3 velocity_;                      // last_from_previous, for velocity_interval_s_
+  SE3 velocity_;  // last_from_previous, for velocity_interval_s_
   double velocity_interval_s_ = 0.0;
   KeyFrameId new_keyframe_;
   std::uint64_t n_frames_ = 0;

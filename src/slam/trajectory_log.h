@@ -7,8 +7,8 @@
 
 namespace cpslam {
 
-/// Remembers every tracked frame by its pose relative to its reference keyframe, so that whatever later moves the
-/// keyframe moves the frame with it. Not thread-safe.
+/// Remembers every tracked frame by its pose relative to its reference keyframe, so that whatever later moves
+/// the keyframe moves the frame with it. Not thread-safe.
 class TrajectoryLog {
  public:
   void add(double time_s, KeyFrameId reference, const SE3& cam_from_reference) {

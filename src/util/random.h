@@ -7,8 +7,8 @@
 
 namespace cpslam {
 
-/// Seeded generator (SplitMix64, Steele et al. 2014) with distributions of our own: the standard library's give
-/// other numbers on other platforms. Not thread-safe; pass one in, never share.
+/// Seeded generator (SplitMix64, Steele et al. 2014) with distributions of our own: the standard library's
+/// give other numbers on other platforms. Not thread-safe; pass one in, never share.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}

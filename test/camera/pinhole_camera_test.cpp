@@ -56,7 +56,6 @@ TEST(PinholeCamera, ProjectsByHand) {
   const PinholeCamera camera(s);
   EXPECT_TRUE(camera.project({1.0, -0.5, 2.0}).isApprox(Eigen::Vector2d(570.0, 140.0), 1e-15));
   EXPECT_TRUE(camera.back_project({570.0, 140.0}, 2.0).isApprox(Eigen::Vector3d(1.0, -0.5, 2.0), 1e-15));
-  EXPECT_DOUBLE_EQ(camera.virtual_right(570.0, 2.0), 550.0);
   EXPECT_FALSE(camera.has_distortion());
   EXPECT_EQ(camera.width(), 640);
   EXPECT_EQ(camera.height(), 480);

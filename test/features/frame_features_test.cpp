@@ -60,14 +60,14 @@ TEST(FrameFeatures, HoldsWhatTheImagesSay) {
     if (features->depth_m[i] == 0.0F) {
       ++n_without;
       EXPECT_EQ(raw, 0);
-      EXPECT_EQ(features->right_u[i], -1.0F);
+      EXPECT_EQ(features->disparity_px[i], 0.0F);
       EXPECT_EQ(features->depth_sigma_m[i], 0.0F);
       continue;
     }
     if (raw != 0) {
       EXPECT_FLOAT_EQ(features->depth_m[i], static_cast<float>(raw / 5000.0));
     }
-    EXPECT_NEAR(features->right_u[i], u.x - 40.0F / features->depth_m[i], 1e-3F);
+    EXPECT_FLOAT_EQ(features->disparity_px[i], 40.0F / features->depth_m[i]);
     EXPECT_GT(features->depth_sigma_m[i], 0.001F);
     EXPECT_LT(features->depth_sigma_m[i], 0.05F);
   }

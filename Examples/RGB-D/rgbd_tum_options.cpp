@@ -1,8 +1,25 @@
 #include "rgbd_tum_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
 
 namespace cpslam::program {
+namespace {
+
+/// Takes whole numbers only: CLI11 would turn -1 into a very large count.
+std::string check_count(const std::string& text) {
+  const bool whole =
+      !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+  return whole ? std::string() : "'" + text + "' is not a whole number of at least 0";
+}
+
+std::string check_positive_count(const std::string& text) {
+  const bool zero = text.find_first_not_of('0') == std::string::npos;
+  return zero ? "must be at least 1, not " + text : check_count(text);
+}
+
+}  // namespace
 
 RgbdTumOptions parse_command_line(int argc, char** argv, std::optional<int>& exit_code) {
   RgbdTumOptions options;
@@ -33,9 +50,10 @@ RgbdTumOptions parse_command_line(int argc, char** argv, std::optional<int>& exi
                "Pace by the time stamps and drop frames when late, like a live camera")
       ->excludes(sequential);
   app.add_option("--start", options.start, "First pair of the sequence to use, counted from 0")
+      ->check(check_count)
       ->capture_default_str();
   app.add_option("--max-frames", options.max_frames, "How many pairs to use at most; default all")
-      ->check(CLI::PositiveNumber);
+      ->check(check_positive_count);
   app.add_option("--seed", options.seed, "Seed of every random draw")->capture_default_str();
   app.add_flag("--print-settings", options.print_settings, "Print the effective settings and go on");
   app.add_flag("--quiet", options.quiet, "No progress and no summary; warnings and errors only");
@@ -45,7 +63,7 @@ RgbdTumOptions parse_command_line(int argc, char** argv, std::optional<int>& exi
   } catch (const CLI::Success& done) {
     exit_code = app.exit(done);
   } catch (const CLI::ParseError& error) {
-    app.exit(error);
+    std::fprintf(stderr, "rgbd_tum: %s; see --help\n", error.what());
     exit_code = 2;
   }
   return options;

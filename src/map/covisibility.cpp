@@ -22,9 +22,8 @@ void Map::update_covisibility(KeyFrameId id) {
       if (seen.keyframe != id) ++shared[seen.keyframe];
     }
   }
-  if (shared.empty()) return;
-  const auto best = std::max_element(shared.begin(), shared.end(),
-                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+  const auto best = std::max_element(shared.begin(), shared.end(), fewer);
   for (const Covisible& edge : keyframe->covisible) {
     const auto still = shared.find(edge.keyframe);
     if (still == shared.end() || still->second < kMinSharedPoints) erase_edge(edge.keyframe, id);
@@ -36,10 +35,18 @@ void Map::update_covisibility(KeyFrameId id) {
     add_edge(other, id, count);
   }
   const bool is_root = keyframe->sequence == 0;
-  if (!is_root && !keyframe->parent.valid()) {
-    keyframe->parent = best->first;
-    keyframes_.find(best->first)->children.push_back(id);
+  if (is_root || keyframe->parent.valid()) return;
+  // One that shared nothing when it came may have descendants by now: none of them can be its parent.
+  std::erase_if(shared, [&](const auto& other) { return descends_from(other.first, id); });
+  if (const auto parent = std::max_element(shared.begin(), shared.end(), fewer); parent != shared.end()) {
+    keyframe->parent = parent->first;
+    keyframes_.find(parent->first)->children.push_back(id);
   }
+}
+
+bool Map::descends_from(KeyFrameId id, KeyFrameId ancestor) const {
+  while (id.valid() && id != ancestor) id = keyframes_.find(id)->parent;
+  return id == ancestor;
 }
 
 void Map::add_edge(KeyFrameId from, KeyFrameId to, int shared_points) {

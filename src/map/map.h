@@ -3,13 +3,13 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <shared_mutex>
 #include <vector>
 
 #include "features/scale_pyramid.h"
 #include "map/ids.h"
 #include "map/keyframe.h"
 #include "map/map_point.h"
+#include "util/fair_shared_mutex.h"
 
 namespace cpslam {
 
@@ -18,14 +18,14 @@ namespace cpslam {
 /// Locking: one mutex for everything in here. Const members need at least a shared lock of mutex(), the
 /// others a unique one, held by the caller, so that several calls make one consistent step. It is the only
 /// lock of the core that is held while another module runs, so there is no lock order to keep; do not call
-/// back into a Worker while holding it.
+/// back into a Worker while holding it, nor ask for it twice.
 class Map {
  public:
   explicit Map(const ScalePyramid& pyramid) : pyramid_(pyramid) {}
   Map(const Map&) = delete;
   Map& operator=(const Map&) = delete;
 
-  [[nodiscard]] std::shared_mutex& mutex() const { return mutex_; }
+  [[nodiscard]] FairSharedMutex& mutex() const { return mutex_; }
 
   // Keyframes
   // -------------------------------------------------------------------------------------------------
@@ -92,8 +92,9 @@ class Map {
   void add_edge(KeyFrameId from, KeyFrameId to, int shared_points);
   void erase_edge(KeyFrameId from, KeyFrameId to);
   void adopt_children(KeyFrameId orphaned_by, const KeyFrame& dead);
+  [[nodiscard]] bool descends_from(KeyFrameId id, KeyFrameId ancestor) const;
 
-  mutable std::shared_mutex mutex_;
+  mutable FairSharedMutex mutex_;
   ScalePyramid pyramid_;
   SlotMap<KeyFrame, KeyFrameTag> keyframes_;
   SlotMap<MapPoint, MapPointTag> points_;

@@ -24,7 +24,7 @@ struct MapPoint {
   float min_distance_m = 0.0F;  ///< range of distances at which the pyramid can show the point
   float max_distance_m = 0.0F;
   KeyFrameId reference;                   ///< whose observation sets the distance range
-  std::vector<Observation> observations;  ///< by keyframe of creation, at most one per keyframe
+  std::vector<Observation> observations;  ///< in the order they were made, at most one per keyframe
   std::uint64_t first_sequence = 0;       ///< KeyFrame::sequence of the keyframe that made it
   int visible = 1;                        ///< frames that should have seen it
   int found = 1;                          ///< frames that did

@@ -42,13 +42,16 @@ inline BenchmarkFrame synthetic_frame() {
   return {grey, cv::Mat(480, 640, CV_16UC1, cv::Scalar(10000))};
 }
 
-/// Every `stride`-th frame of the clip fr1_desk_dev in the folder CPSLAM_SHARED_DATA (or ../shared/data
-/// beside the source), else one synthetic frame.
-inline std::vector<BenchmarkFrame> load_frames(std::size_t stride) {
+/// The folder CPSLAM_SHARED_DATA, or ../shared/data beside the source.
+inline std::filesystem::path data_dir() {
   const char* variable = std::getenv("CPSLAM_SHARED_DATA");
-  const std::filesystem::path data = variable != nullptr
-                                         ? std::filesystem::path(variable)
-                                         : std::filesystem::path(CPSLAM_SOURCE_DIR) / "../shared/data";
+  return variable != nullptr ? std::filesystem::path(variable)
+                             : std::filesystem::path(CPSLAM_SOURCE_DIR) / "../shared/data";
+}
+
+/// Every `stride`-th frame of the clip fr1_desk_dev in data_dir(), else one synthetic frame.
+inline std::vector<BenchmarkFrame> load_frames(std::size_t stride) {
+  const std::filesystem::path data = data_dir();
   const std::vector<std::string> grey = files_in(data / "fr1_desk_dev/rgb");
   const std::vector<std::string> depth = files_in(data / "fr1_desk_dev/depth");
   std::vector<BenchmarkFrame> frames;

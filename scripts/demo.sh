@@ -7,7 +7,7 @@ set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
 
-preset=static_halfsphere
+preset=office_halfsphere
 frames=300
 seed=1
 install=yes

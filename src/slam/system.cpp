@@ -106,10 +106,14 @@ class System::Impl {
       mapping_.process(id, abort_);
       return;
     }
-    // In real time a new keyframe is worth more than the last iterations of the bundle adjustment under way;
-    // offline the bundle adjustment is finished and a full queue makes us wait.
-    if (rig_.settings.realtime) abort_ = true;
     const auto scope = timer_.time("wait for mapper");
+    if (rig_.settings.realtime) {
+      // A new keyframe is worth more than the last iterations of the bundle adjustment under way.
+      abort_ = true;
+    } else {
+      // Offline nothing is lost by waiting, and tracking goes on in a map that is not far behind.
+      mapper_->wait_load_below(static_cast<std::size_t>(rig_.settings.mapping.queue_capacity));
+    }
     mapper_->push(id);
   }
 

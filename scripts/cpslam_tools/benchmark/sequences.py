@@ -11,7 +11,7 @@ from .programs import execute
 # In the order of the README's table: (folder below the data directory, settings below Examples/RGB-D).
 RECORDED = (("fr1_desk_dev", "TUM1.yaml"), ("bonn_crowd_dev", "Bonn.yaml"))
 # Rooms without people, one per camera path of the simulator.
-STATIC_PRESETS = ("static_static", "static_xyz", "static_rpy", "static_halfsphere", "static_loop")
+STATIC_PRESETS = ("office_static", "office_xyz", "office_rpy", "office_halfsphere", "office_rounds")
 SIMULATION_TIMEOUT_S = 1800
 
 

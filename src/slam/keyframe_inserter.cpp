@@ -8,7 +8,7 @@
 namespace cpslam {
 namespace {
 
-constexpr std::size_t kMinPointsWithDepth = 100;
+constexpr std::size_t kMinPointsWithDepth = 300;
 
 /// Keypoints that shall carry a point of their own depth: all close ones, or the nearest kMinPointsWithDepth.
 std::vector<int> keypoints_for_depth_points(const Rig& rig, const FrameFeatures& features) {

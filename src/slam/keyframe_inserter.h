@@ -7,7 +7,7 @@
 namespace cpslam {
 
 /// Puts a tracked frame into the map: the keyframe, its observations of the points it was matched to, and new
-/// points for its close keypoints (at least the 100 nearest with depth). The frame's matches then refer to
+/// points for its close keypoints (at least the 300 nearest with depth). The frame's matches then refer to
 /// those points too. Takes a unique lock of the map.
 KeyFrameId insert_keyframe(const Rig& rig, Map& map, Frame& frame);
 

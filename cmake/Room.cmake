@@ -19,16 +19,21 @@ function(cpslam_add_room name)
   endif()
 endfunction()
 
-# cpslam_add_test(<room> SOURCES <files...> [DEPENDS <rooms...>]): one GoogleTest program, test_<room>.
+# cpslam_add_test(<room> SOURCES <files...> [DEPENDS <rooms...>] [LABELS <label>]): one GoogleTest program,
+# test_<room>.
 function(cpslam_add_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "" "LABELS" "SOURCES;DEPENDS" ${ARGN})
+  set(labels)
+  if(ARG_LABELS)
+    set(labels LABELS ${ARG_LABELS})
+  endif()
   add_executable(test_${name} ${ARG_SOURCES})
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
   target_link_libraries(test_${name} PRIVATE cpslam_flags GTest::gmock GTest::gtest GTest::gtest_main)
   foreach(room IN LISTS ARG_DEPENDS)
     target_link_libraries(test_${name} PRIVATE cpslam_${room})
   endforeach()
-  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  gtest_discover_tests(test_${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 ${labels})
 endfunction()
 
 # cpslam_add_program(<name> SOURCES <files...> DEPENDS <rooms...> LIBRARIES <targets...>): an installed program.

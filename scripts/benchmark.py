@@ -14,7 +14,7 @@ import types
 
 from cpslam_tools import errors, output
 from cpslam_tools.benchmark import machine
-from cpslam_tools.benchmark.campaign import Campaign
+from cpslam_tools.benchmark.campaign import TRIALS, Campaign
 from cpslam_tools.benchmark.programs import Programs
 from cpslam_tools.benchmark.runs import MODES
 from cpslam_tools.benchmark.sequences import STATIC_PRESETS, Sequence, SimulatedSequence, recorded_sequences
@@ -30,7 +30,10 @@ def parse(arguments):
     parser.add_argument("--modes", nargs="+", choices=list(MODES), default=list(MODES))
     parser.add_argument("--repeats", type=positive, default=5, help="runs per sequence and mode (default 5)")
     parser.add_argument("--max-frames", type=positive, help="only the first frames of every sequence")
-    parser.add_argument("--full", action="store_true", help="add the long trials")
+    trials = parser.add_mutually_exclusive_group()
+    trials.add_argument("--full", action="store_true", help="add the long trials")
+    trials.add_argument("--trials", nargs="+", choices=list(TRIALS), metavar="TRIAL",
+                        help=f"only these, of: {', '.join(TRIALS)}")
     parser.add_argument("--frames", type=positive, default=300, help="length of simulated sequences (default 300)")
     parser.add_argument("--seeds", type=positive, default=5, help="rooms per preset with --full (default 5)")
     parser.add_argument("--presets", nargs="+", default=list(STATIC_PRESETS),
@@ -90,8 +93,7 @@ def main(arguments):
     options = parse(arguments)
     plan = make_plan(options)
     campaign = Campaign(plan, machine.describe(ROOT), options.json)
-    long_trials = ["static_rooms", "plateau", "sanitizers", "speed"] if options.full else []
-    campaign.run(["accuracy", *long_trials])
+    campaign.run(options.trials or (list(TRIALS) if options.full else ["accuracy"]))
     text = campaign.markdown()
     print(text, end="")
     if options.markdown:

@@ -32,9 +32,8 @@ struct Clip {
 /// Feeds all frames in order.
 [[nodiscard]] std::vector<TrackResult> track_all(System& system, const Clip& clip);
 
-/// A pair of frames shows where SLAM's world, which starts at the camera's first pose, lies in the
-/// simulator's. Distance (m) between the pose of a result and the truth of a frame, with worlds joined at
-/// `first`.
+/// Distance (m) between where a result puts the camera and where it was at that frame. SLAM's world starts at
+/// the camera's pose in the first frame.
 [[nodiscard]] double position_error_m(const TrackResult& result, const ClipFrame& frame,
                                       const ClipFrame& first);
 

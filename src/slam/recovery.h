@@ -12,8 +12,8 @@ namespace cpslam {
 /// matches. Takes a shared lock of the map.
 int recover_from_keyframe(const Rig& rig, const Map& map, KeyFrameId keyframe, Random& random, Frame& frame);
 
-/// Keyframes worth trying, best first: the reference and those around it, then the latest, then older ones in
-/// turn (attempt counts the frames since tracking was lost, so that in time all are tried). Takes a shared
+/// Keyframes worth trying, best first: the reference, the latest, those around the reference, then older ones
+/// in turn (attempt counts the frames since tracking was lost, so that in time all are tried). Takes a shared
 /// lock.
 [[nodiscard]] std::vector<KeyFrameId> recovery_candidates(const Map& map, KeyFrameId reference,
                                                           std::size_t attempt);

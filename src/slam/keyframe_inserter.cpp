@@ -29,11 +29,15 @@ std::vector<int> keypoints_for_depth_points(const Rig& rig, const FrameFeatures&
 
 }  // namespace
 
-KeyFrameId insert_keyframe(const Rig& rig, Map& map, Frame& frame) {
+KeyFrameId insert_keyframe(const Rig& rig, Map& map, const Placement& placement, Frame& frame) {
   const std::vector<int> with_depth = keypoints_for_depth_points(rig, *frame.features);
-  const SE3 world_from_cam = frame.cam_from_world.inverse();
 
   const std::unique_lock lock(map.mutex());
+  if (const auto reference_from_world = map.cam_from_world(placement.reference)) {
+    frame.cam_from_world =
+        frame.cam_from_world * placement.reference_from_world.inverse() * *reference_from_world;
+  }
+  const SE3 world_from_cam = frame.cam_from_world.inverse();
   KeyFrame keyframe;
   keyframe.time_s = frame.time_s;
   keyframe.cam_from_world = frame.cam_from_world;

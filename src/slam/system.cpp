@@ -15,6 +15,8 @@
 namespace cpslam {
 namespace {
 
+constexpr std::size_t kMaxFramesAhead = 2;
+
 Settings checked(const Settings& settings) {
   settings.check();
   return settings;
@@ -48,6 +50,7 @@ class System::Impl {
 
   TrackResult track(const cv::Mat& colour, const cv::Mat& depth, double time_s, double depth_time_s) {
     check_input(colour, depth, time_s, depth_time_s);
+    let_mapper_catch_up();
     if (!last_time_s_) warn_about_depth_scale(depth, rig_.settings.camera.depth_map_factor, log_);
     last_time_s_ = time_s;
     TrackResult result;
@@ -107,14 +110,18 @@ class System::Impl {
       return;
     }
     const auto scope = timer_.time("wait for mapper");
-    if (rig_.settings.realtime) {
-      // A new keyframe is worth more than the last iterations of the bundle adjustment under way.
-      abort_ = true;
-    } else {
-      // Offline nothing is lost by waiting, and tracking goes on in a map that is not far behind.
-      mapper_->wait_load_below(static_cast<std::size_t>(rig_.settings.mapping.queue_capacity));
-    }
+    // In real time a new keyframe is worth more than the last iterations of the bundle adjustment under way.
+    if (rig_.settings.realtime) abort_ = true;
     mapper_->push(id);
+    frames_since_keyframe_ = 0;
+  }
+
+  /// Offline frames come as fast as they are tracked, so that many would be placed in a map that the mapper
+  /// is still working on; real time grants it a few frames' time. Wait as if time passed.
+  void let_mapper_catch_up() {
+    if (!mapper_ || rig_.settings.realtime || frames_since_keyframe_++ < kMaxFramesAhead) return;
+    const auto scope = timer_.time("wait for mapper");
+    mapper_->wait_idle();
   }
 
   [[nodiscard]] MapperLoad mapper_load() const {
@@ -154,6 +161,7 @@ class System::Impl {
   std::optional<Worker<KeyFrameId>> mapper_;
   Statistics counts_;
   std::optional<double> last_time_s_;
+  std::size_t frames_since_keyframe_ = 0;
   bool finished_ = false;
 };
 

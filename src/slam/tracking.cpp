@@ -8,20 +8,21 @@
 
 #include "slam/keyframe_inserter.h"
 #include "slam/motion_tracker.h"
-#include "slam/recovery.h"
 
 namespace cpslam {
 namespace {
 
-// Half search windows around the predicted pose, px at level 0; the wider ones only when the narrower failed.
-constexpr float kMotionWindowsPx[] = {15.0F, 30.0F, 60.0F};
 // A prediction is worth handing out for a third of a second; after that the camera may be anywhere.
 constexpr double kPredictionS = 0.34;
+// A hand or a robot moves no faster: beyond it the frames before and after do not belong together, and their
+// difference predicts nothing.
+constexpr double kMaxSpeedMPerS = 5.0;
+constexpr double kMaxTurnRadPerS = 12.0;
 
 }  // namespace
 
 Tracking::Tracking(const Rig& rig, Map& map, StageTimer& timer, Log log)
-    : rig_(rig), map_(map), timer_(timer), log_(std::move(log)), random_(rig.settings.seed) {}
+    : rig_(rig), map_(map), timer_(timer), log_(std::move(log)), placer_(rig, map, timer) {}
 
 KeyFrameId Tracking::take_keyframe() {
   return std::exchange(new_keyframe_, KeyFrameId{});
@@ -41,8 +42,9 @@ TrackResult Tracking::track(double time_s, std::shared_ptr<const FrameFeatures> 
     result.keyframe = true;
     finish_tracked(std::move(frame), result);
   } else if (place(frame)) {
+    update_velocity(frame);
     count_visible(frame);
-    best_inliers_ = std::max(best_inliers_, inliers_);
+    best_inliers_ = std::max(best_inliers_, placement_.inliers);
     result.keyframe = should_insert(frame, load);
     if (result.keyframe) insert(frame);
     finish_tracked(std::move(frame), result);
@@ -57,11 +59,11 @@ bool Tracking::initialize(Frame& frame) {
   const auto with_depth = std::count_if(depths.begin(), depths.end(), [](float d) { return d > 0.0F; });
   if (with_depth < rig_.settings.tracking.min_initial_points) return false;
   insert(frame);
-  inliers_ =
+  placement_.inliers =
       static_cast<int>(std::count_if(frame.matches.begin(), frame.matches.end(), [](const PointMatch& m) {
         return m.kind == PointMatch::Kind::kMapPoint;
       }));
-  log_.info("map started with " + std::to_string(inliers_) + " points");
+  log_.info("map started with " + std::to_string(placement_.inliers) + " points");
   return true;
 }
 
@@ -75,42 +77,11 @@ bool Tracking::place(Frame& frame) {
       last_.cam_from_world = last_from_reference_ * *reference_from_world;
     }
   }
-  return place_by_motion(frame) || place_by_recovery(frame);
-}
-
-bool Tracking::place_by_motion(Frame& frame) {
-  for (const float radius_px : kMotionWindowsPx) {
-    {
-      const auto scope = timer_.time("track: motion");
-      frame.cam_from_world = predicted_pose(frame.time_s);
-      if (track_from_last_frame(rig_, last_, radius_px, frame) == 0) continue;
-    }
-    if (match_local_map(frame, 1.0F)) return true;
-  }
-  return false;
-}
-
-bool Tracking::place_by_recovery(Frame& frame) {
-  const auto scope = timer_.time("track: recovery");
-  for (const KeyFrameId keyframe : recovery_candidates(map_, local_map_.reference(), frames_without_pose_)) {
-    if (recover_from_keyframe(rig_, map_, keyframe, random_, frame) == 0) continue;
-    // The rough pose first gathers more points in wide windows, then settles in narrow ones.
-    match_local_map(frame, 3.0F);
-    if (match_local_map(frame, 1.0F)) return true;
-  }
-  return false;
-}
-
-bool Tracking::match_local_map(Frame& frame, float window) {
-  {
-    const auto scope = timer_.time("track: local map update");
-    local_map_.update(map_, frame);
-  }
-  const auto scope = timer_.time("track: local map");
-  LocalMapMatch match = track_local_map(rig_, local_map_, window, frame);
-  expected_ = std::move(match.expected);
-  inliers_ = match.inliers;
-  return inliers_ >= rig_.settings.tracking.min_inliers;
+  const PlacementPrior prior{last_, last_inliers_, predicted_pose(frame.time_s), frames_without_pose_};
+  std::optional<Placement> placement = placer_.place(prior, frame);
+  if (!placement) return false;
+  placement_ = *std::move(placement);
+  return true;
 }
 
 void Tracking::count_visible(const Frame& frame) {
@@ -121,14 +92,14 @@ void Tracking::count_visible(const Frame& frame) {
   }
   std::sort(found.begin(), found.end());
   const std::unique_lock lock(map_.mutex());
-  for (const MapPointId id : expected_) {
+  for (const MapPointId id : placement_.expected) {
     map_.count_visible(id, std::binary_search(found.begin(), found.end(), id));
   }
 }
 
 bool Tracking::should_insert(const Frame& frame, MapperLoad load) const {
   KeyFrameEvidence evidence;
-  evidence.inliers = inliers_;
+  evidence.inliers = placement_.inliers;
   for (std::size_t i = 0; i < frame.matches.size(); ++i) {
     const double depth_m = frame.features->depth_m[i];
     if (depth_m <= 0.0 || depth_m > rig_.close_depth_m) continue;
@@ -142,25 +113,35 @@ bool Tracking::should_insert(const Frame& frame, MapperLoad load) const {
 
 void Tracking::insert(Frame& frame) {
   const auto scope = timer_.time("track: keyframe");
-  new_keyframe_ = insert_keyframe(rig_, map_, frame);
-  local_map_.centre_on(map_, new_keyframe_);
+  new_keyframe_ = insert_keyframe(rig_, map_, placement_, frame);
+  placement_ = placer_.place_keyframe(new_keyframe_, placement_.inliers);
   best_inliers_ = 0;
 }
 
+void Tracking::update_velocity(const Frame& frame) {
+  velocity_ = SE3();
+  velocity_interval_s_ = 0.0;
+  if (state_ != TrackingState::kTracked || frame.index != last_.index + 1) return;
+  const SE3 moved = frame.cam_from_world * last_.cam_from_world.inverse();
+  const double interval_s = frame.time_s - last_.time_s;
+  if (moved.translation.norm() > kMaxSpeedMPerS * interval_s) return;
+  if (rotation_angle(moved.rotation) > kMaxTurnRadPerS * interval_s) return;
+  velocity_ = moved;
+  velocity_interval_s_ = interval_s;
+}
+
 void Tracking::finish_tracked(Frame frame, TrackResult& result) {
-  const bool consecutive = state_ == TrackingState::kTracked && frame.index == last_.index + 1;
-  velocity_ = consecutive ? frame.cam_from_world * last_.cam_from_world.inverse() : SE3();
-  velocity_interval_s_ = consecutive ? frame.time_s - last_.time_s : 0.0;
   if (state_ == TrackingState::kLost || state_ == TrackingState::kPredicted) {
     log_.info("tracking found again after " + std::to_string(frames_without_pose_) + " frames");
   }
   state_ = TrackingState::kTracked;
   frames_without_pose_ = 0;
-  last_reference_ = local_map_.reference();
-  last_from_reference_ = frame.cam_from_world * local_map_.reference_from_world().inverse();
+  last_reference_ = placement_.reference;
+  last_from_reference_ = frame.cam_from_world * placement_.reference_from_world.inverse();
+  last_inliers_ = placement_.inliers;
   trajectory_.add(frame.time_s, last_reference_, last_from_reference_);
   result.state = state_;
-  result.n_inliers = inliers_;
+  result.n_inliers = placement_.inliers;
   result.world_from_camera = to_pose(frame.cam_from_world.inverse());
   last_ = std::move(frame);
   add_temporary_points(rig_, last_);

@@ -5,12 +5,11 @@
 #include "cpslam/types.h"
 #include "map/map.h"
 #include "slam/frame.h"
+#include "slam/frame_placer.h"
 #include "slam/keyframe_decision.h"
-#include "slam/local_map.h"
 #include "slam/rig.h"
 #include "slam/trajectory_log.h"
 #include "util/log.h"
-#include "util/random.h"
 #include "util/stage_timer.h"
 
 namespace cpslam {
@@ -36,9 +35,7 @@ class Tracking {
  private:
   bool initialize(Frame& frame);
   bool place(Frame& frame);
-  bool place_by_motion(Frame& frame);
-  bool place_by_recovery(Frame& frame);
-  bool match_local_map(Frame& frame, float window);
+  void update_velocity(const Frame& frame);
   void count_visible(const Frame& frame);
   bool should_insert(const Frame& frame, MapperLoad load) const;
   void insert(Frame& frame);
@@ -50,15 +47,14 @@ class Tracking {
   Map& map_;
   StageTimer& timer_;
   Log log_;
-  Random random_;
 
   TrackingState state_ = TrackingState::kNotInitialized;
-  LocalMap local_map_;
-  std::vector<MapPointId> expected_;  // points of the local map that the frame at hand should show
-  int inliers_ = 0;                   // of the frame at hand
-  int best_inliers_ = 0;              // of the frames since the last keyframe
-  Frame last_;                        // the latest frame with a pose of its own
-  KeyFrameId last_reference_;         // keyframe that last_'s pose hangs on
+  FramePlacer placer_;
+  Placement placement_;        // of the frame at hand
+  int last_inliers_ = 0;       // of last_
+  int best_inliers_ = 0;       // of the frames since the last keyframe
+  Frame last_;                 // the latest frame with a pose of its own
+  KeyFrameId last_reference_;  // keyframe that last_'s pose hangs on
   SE3 last_from_reference_;
   SE3 velocity_;  // last_from_previous, for velocity_interval_s_
   double velocity_interval_s_ = 0.0;

@@ -36,7 +36,7 @@ TEST(KeyFrameInserter, MakesPointsOfAllCloseKeypoints) {
   const SE3 pose = synthetic::moved({}, {0.1, 0.0, 0.0}, 0.05);
   Frame frame = scene::make_frame(synthetic::look(world, pose, {.depth_share = 0.7}, random), 1.25);
   Map map(kRig.pyramid);
-  const KeyFrameId id = insert_keyframe(kRig, map, frame);
+  const KeyFrameId id = insert_keyframe(kRig, map, Placement{}, frame);
   EXPECT_EQ(map.keyframe(id)->time_s, 1.25);
   EXPECT_EQ(map.keyframe(id)->features, frame.features);
   expect_frame_and_keyframe_agree(map, id, frame);
@@ -59,7 +59,7 @@ TEST(KeyFrameInserter, FarRoomsGetTheNearest) {
   const synthetic::World world = synthetic::random_world(500, random, 4.0, 8.0);
   Frame frame = scene::make_frame(synthetic::look(world, {}, {}, random));
   Map map(kRig.pyramid);
-  insert_keyframe(kRig, map, frame);
+  insert_keyframe(kRig, map, Placement{}, frame);
   EXPECT_EQ(map_point_matches(frame), kAtLeast);
   float farthest_in = 0.0F;
   float nearest_out = 100.0F;
@@ -99,7 +99,7 @@ TEST(KeyFrameInserter, ObservesWhatTheFrameWasMatchedTo) {
   frame.matches[3] = frame.matches[2];
   const MapPointId of_both = frame.matches[2].id;
   const std::vector<PointMatch> before = frame.matches;
-  const KeyFrameId id = insert_keyframe(kRig, mapped.map, frame);
+  const KeyFrameId id = insert_keyframe(kRig, mapped.map, Placement{}, frame);
   expect_frame_and_keyframe_agree(mapped.map, id, frame);
   EXPECT_NE(frame.matches[static_cast<std::size_t>(erased_keypoint)].id, before[1].id)
       << "a new point in its place";

@@ -8,6 +8,7 @@
 
 #include "common/console_log.h"
 #include "common/progress_bar.h"
+#include "common/run_program.h"
 #include "common/run_report.h"
 #include "common/stop_signal.h"
 #include "cpslam/error.h"
@@ -25,9 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kExitOk = 0;
-constexpr int kExitFailure = 1;
-constexpr int kExitInput = 2;
 constexpr std::size_t kReadAhead = 8;
 constexpr std::size_t kMaxWarnings = 10;
 
@@ -186,15 +184,9 @@ int main_program(const RgbdTumOptions& options) {
 
 int main(int argc, char** argv) {
   using namespace cpslam::program;
-  try {
+  return run_program("rgbd_tum", [&] {
     std::optional<int> exit_code;
     const RgbdTumOptions options = parse_command_line(argc, argv, exit_code);
     return exit_code ? *exit_code : main_program(options);
-  } catch (const cpslam::InputError& error) {
-    std::fprintf(stderr, "rgbd_tum: %s\n", error.what());
-    return kExitInput;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "rgbd_tum: %s\n", error.what());
-    return kExitFailure;
-  }
+  });
 }

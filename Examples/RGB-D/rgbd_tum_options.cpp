@@ -2,7 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
+
+#include "common/run_program.h"
 
 namespace cpslam::program {
 namespace {
@@ -58,14 +59,7 @@ RgbdTumOptions parse_command_line(int argc, char** argv, std::optional<int>& exi
   app.add_flag("--print-settings", options.print_settings, "Print the effective settings and go on");
   app.add_flag("--quiet", options.quiet, "No progress and no summary; warnings and errors only");
   app.set_version_flag("--version", "rgbd_tum (CP-SLAM) " CPSLAM_VERSION);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& done) {
-    exit_code = app.exit(done);
-  } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "rgbd_tum: %s; see --help\n", error.what());
-    exit_code = 2;
-  }
+  exit_code = parse(app, "rgbd_tum", argc, argv);
   return options;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/progress_bar.h"
+#include "common/run_program.h"
 #include "common/stop_signal.h"
 #include "cpslam/error.h"
 #include "sim/sequence_writer.h"
@@ -13,10 +14,6 @@
 
 namespace cpslam::program {
 namespace {
-
-constexpr int kExitOk = 0;
-constexpr int kExitFailure = 1;
-constexpr int kExitInput = 2;
 
 struct SimulateOptions {
   sim::SimulationOptions simulation;
@@ -53,14 +50,7 @@ SimulateOptions parse_command_line(int argc, char** argv, std::optional<int>& ex
   app.add_flag("--list-presets", options.list_presets, "List the presets and end");
   app.add_flag("--quiet", options.quiet, "No progress bar");
   app.set_version_flag("--version", "simulate_tum (CP-SLAM) " CPSLAM_VERSION);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& done) {
-    exit_code = app.exit(done);
-  } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "simulate_tum: %s; see --help\n", error.what());
-    exit_code = kExitInput;
-  }
+  exit_code = parse(app, "simulate_tum", argc, argv);
   return options;
 }
 
@@ -94,15 +84,9 @@ int simulate(SimulateOptions options) {
 
 int main(int argc, char** argv) {
   using namespace cpslam::program;
-  try {
+  return run_program("simulate_tum", [&] {
     std::optional<int> exit_code;
     SimulateOptions options = parse_command_line(argc, argv, exit_code);
     return exit_code ? *exit_code : simulate(std::move(options));
-  } catch (const cpslam::InputError& error) {
-    std::fprintf(stderr, "simulate_tum: %s\n", error.what());
-    return kExitInput;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "simulate_tum: %s\n", error.what());
-    return kExitFailure;
-  }
+  });
 }

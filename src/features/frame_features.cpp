@@ -1,25 +1,16 @@
 #include "features/frame_features.h"
 
 #include <cmath>
-#include <string>
 
-#include "cpslam/error.h"
+#include "features/image_check.h"
 
 namespace cpslam {
-namespace {
-
-std::string size_text(cv::Size size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
-}  // namespace
-
 FrameFeaturesBuilder::FrameFeaturesBuilder(const CameraSettings& camera, const OrbSettings& orb)
     : camera_(camera), metres_per_unit_(1.0 / camera.depth_map_factor), extractor_(orb) {}
 
 std::shared_ptr<const FrameFeatures> FrameFeaturesBuilder::build(const cv::Mat& grey, const cv::Mat& depth,
                                                                  const SE3& depth_from_colour) {
-  check(grey, depth);
+  check_images(grey, depth, {camera_.width(), camera_.height()});
   extractor_.extract(grey, found_);
   auto features = std::make_shared<FrameFeatures>();
   const std::size_t n = found_.keypoints.size();
@@ -31,23 +22,6 @@ std::shared_ptr<const FrameFeatures> FrameFeaturesBuilder::build(const cv::Mat& 
   features->descriptors = found_.descriptors;
   features->grid = KeypointGrid(features->keypoints, camera_.undistorted_bounds());
   return features;
-}
-
-void FrameFeaturesBuilder::check(const cv::Mat& grey, const cv::Mat& depth) const {
-  const cv::Size expected(camera_.width(), camera_.height());
-  if (grey.size() != expected) {
-    throw InputError("colour image of " + size_text(grey.size()) +
-                     " px, but Camera.width and Camera.height say " + size_text(expected) +
-                     ": give the settings of this camera");
-  }
-  if (depth.size() != grey.size()) {
-    throw InputError("depth image of " + size_text(depth.size()) + " px beside a colour image of " +
-                     size_text(grey.size()) + " px: depth must be registered to colour");
-  }
-  if (depth.type() != CV_16UC1 && depth.type() != CV_32FC1) {
-    throw InputError("depth image of OpenCV type " + std::to_string(depth.type()) +
-                     ": it must have one channel of 16-bit integers or 32-bit floats");
-  }
 }
 
 void FrameFeaturesBuilder::add_keypoint(const OrbKeypoint& found, const cv::Mat& depth,

@@ -43,7 +43,6 @@ class FrameFeaturesBuilder {
                                                            const SE3& depth_from_colour = {});
 
  private:
-  void check(const cv::Mat& grey, const cv::Mat& depth) const;
   void add_keypoint(const OrbKeypoint& found, const cv::Mat& depth, const SE3& depth_from_colour,
                     FrameFeatures& features) const;
   [[nodiscard]] DepthReading read_depth(const Eigen::Vector2d& distorted_px, const cv::Mat& depth) const;

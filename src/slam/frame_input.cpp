@@ -6,14 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "cpslam/error.h"
-
 namespace cpslam {
 namespace {
-
-std::string size_text(const cv::Mat& image) {
-  return std::to_string(image.cols) + "x" + std::to_string(image.rows);
-}
 
 template <typename Value>
 std::vector<float> valid_samples(const cv::Mat& depth) {
@@ -30,26 +24,6 @@ std::vector<float> valid_samples(const cv::Mat& depth) {
 }
 
 }  // namespace
-
-void check_images(const cv::Mat& colour, const cv::Mat& depth, const CameraSettings& camera) {
-  if (colour.empty()) throw InputError("the colour image is empty");
-  if (depth.empty()) throw InputError("the depth image is empty");
-  if (colour.type() != CV_8UC3 && colour.type() != CV_8UC1) {
-    throw InputError("the colour image must have 8 bits in one or three channels");
-  }
-  if (depth.type() != CV_16UC1 && depth.type() != CV_32FC1) {
-    throw InputError("the depth image must have 16-bit integers or 32-bit floats in one channel");
-  }
-  if (colour.size() != depth.size()) {
-    throw InputError("the colour image is " + size_text(colour) + " and the depth image " + size_text(depth) +
-                     ": depth must be registered to colour");
-  }
-  if (colour.cols != camera.width || colour.rows != camera.height) {
-    throw InputError("the images are " + size_text(colour) +
-                     ", but the settings' Camera.width and Camera.height say " +
-                     std::to_string(camera.width) + "x" + std::to_string(camera.height));
-  }
-}
 
 cv::Mat to_grey(const cv::Mat& colour) {
   if (colour.channels() == 1) return colour;

@@ -40,14 +40,7 @@ Eigen::Vector3d back_project(const Rig& rig, const FrameFeatures& features, int 
 
 double chi2(const Rig& rig, const PointObservation& seen, const Eigen::Vector3d& point_in_camera) {
   if (point_in_camera.z() <= 0.0) return std::numeric_limits<double>::infinity();
-  const Eigen::Vector2d error = (seen.uv - rig.camera.project(point_in_camera)) / seen.sigma_px;
-  double sum = error.squaredNorm();
-  if (seen.has_depth()) {
-    const double disparity_error =
-        (seen.disparity - rig.camera.bf() / point_in_camera.z()) / seen.sigma_disparity_px;
-    sum += disparity_error * disparity_error;
-  }
-  return sum;
+  return reprojection_error(rig.reprojection, point_in_camera, seen).squaredNorm();
 }
 
 int predict_octave(const Rig& rig, double distance_m, float max_distance_m) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "features/frame_features.h"
-#include "optim/observation.h"
+#include "optim/reprojection.h"
 #include "slam/rig.h"
 
 namespace cpslam {
@@ -17,11 +17,6 @@ namespace cpslam {
 /// camera.
 [[nodiscard]] double chi2(const Rig& rig, const PointObservation& seen,
                           const Eigen::Vector3d& point_in_camera);
-
-/// The 95 % gate that goes with chi2.
-[[nodiscard]] inline double chi2_gate(const PointObservation& seen) {
-  return seen.has_depth() ? kChi2Depth : kChi2Mono;
-}
 
 /// Level of the pyramid at which a point at this distance looks as it did in its reference view.
 [[nodiscard]] int predict_octave(const Rig& rig, double distance_m, float max_distance_m);

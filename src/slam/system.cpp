@@ -6,6 +6,7 @@
 #include <shared_mutex>
 
 #include "cpslam/error.h"
+#include "features/image_check.h"
 #include "slam/frame_input.h"
 #include "slam/local_mapping.h"
 #include "slam/rig.h"
@@ -35,7 +36,8 @@ class System::Impl {
         tracking_(rig_, map_, timer_, log_) {
     if (rig_.settings.sequential) return;
     mapper_.emplace(
-        [this](KeyFrameId&& id, const std::stop_token&) {
+        [this](KeyFrameId&& id, const std::stop_token& stop) {
+          if (stop.stop_requested()) return;
           abort_ = false;
           mapping_.process(id, abort_);
         },
@@ -95,7 +97,7 @@ class System::Impl {
  private:
   void check_input(const cv::Mat& colour, const cv::Mat& depth, double time_s, double depth_time_s) const {
     if (finished_) throw RunError("track() was called after shutdown()");
-    check_images(colour, depth, rig_.settings.camera);
+    check_images(colour, depth, {rig_.camera.width(), rig_.camera.height()});
     if (!std::isfinite(time_s) || !std::isfinite(depth_time_s))
       throw InputError("the frame's time stamp is not a finite number");
     if (last_time_s_ && time_s <= *last_time_s_) {

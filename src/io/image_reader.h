@@ -11,7 +11,7 @@ namespace cpslam {
 
 /// A decoded pair. Either both images are valid or error says in one line which file is bad and how.
 struct RgbdImages {
-  double time_s = 0.0;        ///< of the colour image
+  double time_s = 0.0;  ///< of the colour image
   double depth_time_s = 0.0;
   cv::Mat colour;  ///< CV_8UC3 (B,G,R) or CV_8UC1
   cv::Mat depth;   ///< CV_16UC1 (PNG) or CV_32FC1 (TIFF), in units of DepthMapFactor

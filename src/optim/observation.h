@@ -5,8 +5,8 @@
 namespace cpslam {
 
 /// One measured keypoint: undistorted pixel and, where the keypoint has depth, the disparity bf / depth
-/// it would have in the virtual right camera (Mur-Artal and Tardos 2017). Kept apart from u: the two sensors err
-/// independently.
+/// it would have in the virtual right camera (Mur-Artal and Tardos 2017). Kept apart from u: the two sensors
+/// err independently.
 struct PointObservation {
   Eigen::Vector2d uv = Eigen::Vector2d::Zero();  ///< px
   double disparity = 0.0;                        ///< px; 0: no depth, a monocular observation

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-
 #include <vector>
 
 #include "optim/bundle_adjuster.h"

@@ -30,6 +30,7 @@ void LocalMap::update(const Map& map, const Frame& frame) {
   if (reference == reference_ && map.version() == map_version_) return;
   reference_ = reference;
   std::vector<KeyFrameId> seeds;
+  seeds.reserve(order.size());
   for (const auto& [n, id] : order) seeds.push_back(id);
   copy(map, seeds);
 }

@@ -111,5 +111,32 @@ TEST(KeyFrameInserter, ObservesWhatTheFrameWasMatchedTo) {
   EXPECT_EQ(mapped.map.best_covisible(id, 5), std::vector<KeyFrameId>{mapped.keyframes[0]});
 }
 
+TEST(KeyFrameInserter, FollowsAReferenceThatTheMapperMovedMeanwhile) {
+  Random random(3);
+  const synthetic::World world = synthetic::random_world(300, random, 1.0, 4.0);
+  const SE3 first_pose = synthetic::moved({}, {0.1, 0.0, 0.0}, 0.05);
+  Map map(kRig.pyramid);
+  Frame first = scene::make_frame(synthetic::look(world, first_pose, {}, random), 1.0);
+  const KeyFrameId reference = insert_keyframe(kRig, map, Placement{}, first);
+
+  Placement placement;
+  placement.reference = reference;
+  placement.reference_from_world = map.keyframe(reference)->cam_from_world;
+  const SE3 second_pose = synthetic::moved(first_pose, {0.0, 0.05, 0.0}, 0.02);
+  const synthetic::View view = synthetic::look(world, second_pose, {}, random);
+  Frame second = scene::make_frame(view, 2.0);
+  second.cam_from_world = second_pose;
+  const SE3 correction =
+      SE3::exp((Eigen::Matrix<double, 6, 1>() << 0.02, -0.01, 0.03, 0.01, 0.0, -0.02).finished());
+  map.set_pose(reference, placement.reference_from_world * correction);
+  const KeyFrameId id = insert_keyframe(kRig, map, placement, second);
+
+  const SE3 expected = second_pose * correction;
+  const SE3 error = map.keyframe(id)->cam_from_world * expected.inverse();
+  EXPECT_LT(error.log().norm(), 1e-9);
+  const SE3 frame_error = second.cam_from_world * expected.inverse();
+  EXPECT_LT(frame_error.log().norm(), 1e-9) << "the frame's own pose goes along";
+}
+
 }  // namespace
 }  // namespace cpslam

@@ -162,6 +162,14 @@ int Map::keypoint_of(MapPointId point_id, KeyFrameId keyframe_id) const {
   return -1;
 }
 
+void Map::refresh_points_of(KeyFrameId keyframe_id) {
+  const KeyFrame* keyframe = keyframes_.find(keyframe_id);
+  if (keyframe == nullptr) return;
+  for (const MapPointId point : keyframe->points) {
+    if (point.valid()) refresh_point(point);
+  }
+}
+
 void Map::refresh_point(MapPointId id) {
   MapPoint* point = points_.find(id);
   if (point == nullptr || point->observations.empty()) return;

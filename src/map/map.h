@@ -64,6 +64,8 @@ class Map {
   [[nodiscard]] int keypoint_of(MapPointId point, KeyFrameId keyframe) const;
   /// Recomputes descriptor, normal and distance range of a point from its observations.
   void refresh_point(MapPointId id);
+  /// The same for every point the keyframe sees.
+  void refresh_points_of(KeyFrameId keyframe);
 
   // Covisibility graph and spanning tree
   // ------------------------------------------------------------------------

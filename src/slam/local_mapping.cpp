@@ -8,23 +8,13 @@
 #include "slam/point_fusion.h"
 
 namespace cpslam {
-namespace {
-
-void refresh_observed_points(Map& map, KeyFrameId id) {
-  const std::unique_lock lock(map.mutex());
-  const KeyFrame* keyframe = map.keyframe(id);
-  if (keyframe == nullptr) return;
-  for (const MapPointId point : keyframe->points) {
-    if (point.valid()) map.refresh_point(point);
-  }
-}
-
-}  // namespace
-
 void LocalMapping::process(KeyFrameId keyframe, const std::atomic<bool>& abort) {
   {
     const auto scope = timer_.time("map: recent points");
-    refresh_observed_points(map_, keyframe);
+    {
+      const std::unique_lock lock(map_.mutex());
+      map_.refresh_points_of(keyframe);
+    }
     recent_points_.cull(map_, keyframe);
   }
   {

@@ -137,11 +137,11 @@ std::vector<KeyFrameId> useful_neighbours(const Rig& rig, const Map& map, KeyFra
   std::vector<KeyFrameId> useful;
   const KeyFrame* keyframe = map.keyframe(id);
   if (keyframe == nullptr) return useful;
-  const double baseline_of_sensor_m = rig.camera.bf() / rig.camera.fx();
+  const double least_baseline_m =
+      std::min(rig.camera.bf() / rig.camera.fx(), 0.01 * median_depth(map, *keyframe));
   for (const KeyFrameId other : map.best_covisible(id, kNeighbours)) {
     const double baseline_m = (map.keyframe(other)->centre_in_world() - keyframe->centre_in_world()).norm();
-    if (baseline_m >= std::min(baseline_of_sensor_m, 0.01 * median_depth(map, *keyframe)))
-      useful.push_back(other);
+    if (baseline_m >= least_baseline_m) useful.push_back(other);
   }
   return useful;
 }

@@ -128,11 +128,7 @@ void fuse_points(const Rig& rig, Map& map, KeyFrameId keyframe) {
   for (const KeyFrameId neighbour : neighbours) fuse_into(rig, map, {keyframe}, neighbour);
   fuse_into(rig, map, neighbours, keyframe);
   const std::unique_lock lock(map.mutex());
-  if (const KeyFrame* current = map.keyframe(keyframe)) {
-    for (const MapPointId point : std::vector<MapPointId>(current->points)) {
-      if (point.valid()) map.refresh_point(point);
-    }
-  }
+  map.refresh_points_of(keyframe);
   map.update_covisibility(keyframe);
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -9,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "support/shared_data.h"
 #include "util/random.h"
 
 namespace cpslam::bench {
@@ -42,16 +42,9 @@ inline BenchmarkFrame synthetic_frame() {
   return {grey, cv::Mat(480, 640, CV_16UC1, cv::Scalar(10000))};
 }
 
-/// The folder CPSLAM_SHARED_DATA, or ../shared/data beside the source.
-inline std::filesystem::path data_dir() {
-  const char* variable = std::getenv("CPSLAM_SHARED_DATA");
-  return variable != nullptr ? std::filesystem::path(variable)
-                             : std::filesystem::path(CPSLAM_SOURCE_DIR) / "../shared/data";
-}
-
-/// Every `stride`-th frame of the clip fr1_desk_dev in data_dir(), else one synthetic frame.
+/// Every `stride`-th frame of the clip fr1_desk_dev in shared_data_dir(), else one synthetic frame.
 inline std::vector<BenchmarkFrame> load_frames(std::size_t stride) {
-  const std::filesystem::path data = data_dir();
+  const std::filesystem::path data = shared_data_dir();
   const std::vector<std::string> grey = files_in(data / "fr1_desk_dev/rgb");
   const std::vector<std::string> depth = files_in(data / "fr1_desk_dev/depth");
   std::vector<BenchmarkFrame> frames;

@@ -22,7 +22,7 @@ struct Clip {
 /// fr1_desk_dev where it is there, else a simulated office.
 Clip load_clip() {
   Clip clip;
-  const std::filesystem::path desk = bench::data_dir() / "fr1_desk_dev";
+  const std::filesystem::path desk = shared_data_dir() / "fr1_desk_dev";
   if (std::filesystem::is_directory(desk)) {
     clip.settings = load_settings(CPSLAM_SOURCE_DIR "/Examples/RGB-D/TUM1.yaml");
     for (const RgbdEntry& entry : associate_sequence(desk.string())) clip.frames.push_back(read_rgbd(entry));

@@ -1,7 +1,6 @@
 // Recorded sequences, where they are at hand.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "cpslam/system.h"
@@ -9,14 +8,10 @@
 #include "io/trajectory_error.h"
 #include "io/trajectory_io.h"
 #include "io/tum_sequence.h"
+#include "support/shared_data.h"
 
 namespace cpslam::e2e {
 namespace {
-
-std::string data_folder() {
-  const char* const from_environment = std::getenv("CPSLAM_SHARED_DATA");
-  return from_environment != nullptr ? from_environment : CPSLAM_SOURCE_DIR "/../shared/data";
-}
 
 /// Runs a clip in sequential mode.
 struct RealRun {
@@ -42,7 +37,7 @@ struct RealRun {
 };
 
 TEST(RealClipsEndToEnd, Desk) {
-  const std::string clip = data_folder() + "/fr1_desk_dev";
+  const std::string clip = shared_data_dir().string() + "/fr1_desk_dev";
   if (!std::filesystem::is_directory(clip)) GTEST_SKIP() << "no clip " << clip << "; set CPSLAM_SHARED_DATA";
   const RealRun run(clip, "TUM1.yaml");
   EXPECT_EQ(run.statistics.frames, 250U);
@@ -53,7 +48,7 @@ TEST(RealClipsEndToEnd, Desk) {
 }
 
 TEST(RealClipsEndToEnd, Crowd) {
-  const std::string clip = data_folder() + "/bonn_crowd_dev";
+  const std::string clip = shared_data_dir().string() + "/bonn_crowd_dev";
   if (!std::filesystem::is_directory(clip)) GTEST_SKIP() << "no clip " << clip << "; set CPSLAM_SHARED_DATA";
   const RealRun run(clip, "Bonn.yaml");
   // People are not filtered out, so nothing is asked of the accuracy, and tracking only until they come.

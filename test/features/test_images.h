@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "features/simd.h"
+#include "support/shared_data.h"
 #include "util/random.h"
 
 namespace cpslam::test {
@@ -57,11 +58,7 @@ inline cv::Mat textured_image(int width, int height, std::uint64_t seed) {
 
 /// Grey frames of the clip fr1_desk_dev, every `stride`-th; empty when the clip is not on this machine.
 inline std::vector<cv::Mat> desk_frames(std::size_t stride) {
-  const char* variable = std::getenv("CPSLAM_SHARED_DATA");
-  const std::filesystem::path data = variable != nullptr
-                                         ? std::filesystem::path(variable)
-                                         : std::filesystem::path(CPSLAM_SOURCE_DIR) / "../shared/data";
-  const std::filesystem::path folder = data / "fr1_desk_dev/rgb";
+  const std::filesystem::path folder = shared_data_dir() / "fr1_desk_dev/rgb";
   std::vector<std::string> paths;
   if (std::filesystem::is_directory(folder)) {
     for (const auto& entry : std::filesystem::directory_iterator(folder))

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "io/image_reader.h"
@@ -8,16 +7,15 @@
 #include "io/trajectory_error.h"
 #include "io/trajectory_io.h"
 #include "io/tum_sequence.h"
+#include "support/shared_data.h"
 
 namespace cpslam {
 namespace {
 
 /// A real clip's folder, or nothing where the data is not at hand.
 std::string clip(const std::string& name) {
-  const char* const from_environment = std::getenv("CPSLAM_SHARED_DATA");
-  const std::string data =
-      from_environment != nullptr ? from_environment : std::string(CPSLAM_SOURCE_DIR) + "/../shared/data";
-  return std::filesystem::is_directory(data + "/" + name) ? data + "/" + name : "";
+  const std::filesystem::path folder = shared_data_dir() / name;
+  return std::filesystem::is_directory(folder) ? folder.string() : "";
 }
 
 TEST(RealClips, DeskIsReadWhole) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace cpslam {
 
@@ -42,11 +44,58 @@ struct MappingSettings {
   int queue_capacity = 2;  ///< keyframes that may wait; offline, Tracking waits when the queue is full
 };
 
+enum class DetectorKind {
+  kNone,   ///< nothing is filtered: plain ORB-SLAM2 behaviour
+  kBoxes,  ///< boxes recorded in a file
+  kYolo,   ///< a Darknet YOLO network, run by OpenCV
+};
+
+enum class BoxesPolicy {
+  kWait,    ///< every frame waits for the boxes of its own image
+  kLatest,  ///< no frame waits: the newest boxes are carried into it
+};
+
+struct DetectorSettings {
+  DetectorKind kind = DetectorKind::kNone;
+  std::string boxes_file;     ///< kBoxes: "timestamp x y width height confidence" a line
+  std::string model_cfg;      ///< kYolo: Darknet .cfg
+  std::string model_weights;  ///< kYolo: Darknet .weights
+  int input_width = 0;        ///< of the network, px; 0: as its .cfg says
+  int input_height = 0;
+  double confidence_threshold = 0.3;
+  double nms_threshold = 0.45;  ///< intersection over union above which the weaker of two boxes goes
+  std::vector<int> classes{0};  ///< indices of the classes that count as people
+  int n_threads = 0;            ///< of the network; 0: as many as the machine has
+  bool quantise = false;        ///< run the network in 8-bit integers
+  std::string calibration;      ///< folder with pictures to calibrate the 8-bit network on
+  std::string cache_dir;    ///< where the calibration is kept for the next time; empty: beside the weights
+  double timeout_s = 10.0;  ///< a detection that takes longer is given up, loudly
+  std::optional<BoxesPolicy> policy;  ///< empty: kLatest in real time, else kWait
+  /// kLatest with --sequential, or to try it out: detections are begun at most this often (0: at every frame)
+  /// and arrive this much later, both counted in frame stamps.
+  double pretend_rate_hz = 0.0;
+  double pretend_delay_s = 0.0;
+};
+
+/// What decides which keypoints inside the boxes are on people (docs/method.md).
+enum class PeopleFilter {
+  kSdf,    ///< MLESAC on depth, grown over the depth image, carried between detections
+  kPaper,  ///< the published Algorithm 1 as literally as it can be read
+  kBoxes,  ///< every keypoint inside a box
+};
+
+struct PeopleSettings {
+  PeopleFilter filter = PeopleFilter::kSdf;
+  bool reinstate_still = true;  ///< keypoints on people who do not move come back
+};
+
 struct Settings {
   CameraSettings camera;
   OrbSettings orb;
   TrackingSettings tracking;
   MappingSettings mapping;
+  DetectorSettings detector;
+  PeopleSettings people;
   bool sequential =
       false;               ///< all stages one after the other in the caller's thread: reproducible to the bit
   bool realtime = false;   ///< never wait for the mapper; its load takes part in keyframe decisions

@@ -4,6 +4,8 @@
 #include <opencv2/core/mat.hpp>
 
 #include "cpslam/log.h"
+#include "cpslam/person_detector.h"
+#include "cpslam/rgbd_frame.h"
 #include "cpslam/settings.h"
 #include "cpslam/types.h"
 
@@ -15,8 +17,11 @@ namespace cpslam {
 /// stops and joins every thread.
 class System {
  public:
-  /// Throws InputError when a setting is missing or out of range.
+  /// Uses the detector that settings.detector asks for. Throws InputError when a setting is missing or out of
+  /// range, or a file of the detector's is missing or broken.
   explicit System(const Settings& settings, LogSink log = {});
+  /// The same with a detector of the caller's; null for none.
+  System(const Settings& settings, std::unique_ptr<PersonDetector> detector, LogSink log = {});
   ~System();
   System(const System&) = delete;
   System& operator=(const System&) = delete;
@@ -32,6 +37,12 @@ class System {
   /// The same for a camera that stamps its depth images apart: the camera's motion between the two exposures
   /// is taken out of the depths. depth_time_s may lie before or after time_s.
   TrackResult track(const cv::Mat& colour, const cv::Mat& depth, double time_s, double depth_time_s);
+
+  /// The same with all that a frame can carry, boxes and masks of the caller's own detector among it.
+  TrackResult track(const RgbdFrame& frame);
+
+  /// What was seen in the last frame that track() took, to draw it.
+  [[nodiscard]] FrameView frame_view() const;
 
   /// Finishes the mapping of the frames so far and ends the threads. Idempotent; track() may not follow.
   void shutdown();

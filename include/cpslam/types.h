@@ -14,6 +14,16 @@ struct Pose {
   std::array<double, 3> translation_m{0.0, 0.0, 0.0};
 };
 
+/// A person, or another thing that moves by itself, in an image: pixels of the image as the camera took it,
+/// top-left corner; may reach over the image's border.
+struct PersonBox {
+  double x = 0.0;
+  double y = 0.0;
+  double width = 0.0;
+  double height = 0.0;
+  double confidence = 1.0;  ///< [0, 1]
+};
+
 struct StampedPose {
   double time_s = 0.0;
   Pose world_from_camera;
@@ -47,6 +57,19 @@ struct StageTimes {
   double max_ms = 0.0;
 };
 
+/// What the person detector and the people filter did.
+struct PeopleStatistics {
+  std::size_t detections = 0;         ///< images the detector has finished, or the caller brought boxes for
+  std::size_t detector_failures = 0;  ///< of them: threw, or were given up
+  std::size_t boxes = 0;              ///< over all detections
+  std::size_t keypoints = 0;          ///< over all frames, before the filter
+  std::size_t removed_keypoints = 0;  ///< of them: on people
+  std::size_t reinstated_keypoints = 0;  ///< on people who do not move: not removed
+  std::size_t extended_frames = 0;       ///< frames that got a second extraction outside the people
+  double mean_boxes_age_s = 0.0;  ///< of the newest boxes, over the frames that had any; in frame stamps
+  double max_boxes_age_s = 0.0;
+};
+
 struct Statistics {
   std::size_t frames = 0;
   std::size_t tracked = 0;
@@ -58,7 +81,8 @@ struct Statistics {
   std::size_t map_points = 0;  ///< alive
   std::size_t map_points_created = 0;
   std::size_t local_bundle_adjustments = 0;
-  std::vector<StageTimes> stages;
+  PeopleStatistics people;
+  std::vector<StageTimes> stages;  ///< "detect" is the detector's
 };
 
 }  // namespace cpslam

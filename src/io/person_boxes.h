@@ -3,16 +3,9 @@
 #include <string>
 #include <vector>
 
-namespace cpslam {
+#include "cpslam/types.h"
 
-/// A person in an image: pixels, top-left corner, may reach over the image's border.
-struct PersonBox {
-  double x = 0.0;
-  double y = 0.0;
-  double width = 0.0;
-  double height = 0.0;
-  double confidence = 1.0;  ///< [0, 1]
-};
+namespace cpslam {
 
 struct StampedBoxes {
   double time_s = 0.0;  ///< the colour image's

@@ -11,7 +11,7 @@ namespace {
 /// The second nearest of the valid readings, or the only one: a single near one may be a flying pixel.
 float choose(std::array<float, 4>& readings, int n_valid) {
   if (n_valid == 0) return 0.0F;
-  std::sort(readings.begin(), readings.begin() + n_valid);
+  std::sort(readings.begin(), std::next(readings.begin(), n_valid));
   return readings[n_valid > 1 ? 1 : 0];
 }
 
@@ -29,7 +29,7 @@ void reduce(const cv::Mat& raw, float metres_per_unit, cv::Mat1f& grid) {
       int n = 0;
       for (const Unit unit : {upper[left], upper[right], lower[left], lower[right]}) {
         const float depth_m = static_cast<float>(unit) * metres_per_unit;
-        if (depth_m > 0.0F && std::isfinite(depth_m)) valid[static_cast<std::size_t>(n++)] = depth_m;
+        if (depth_m > 0.0F && std::isfinite(depth_m)) valid.at(static_cast<std::size_t>(n++)) = depth_m;
       }
       grid(y, x) = choose(valid, n);
     }

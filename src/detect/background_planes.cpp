@@ -1,0 +1,113 @@
+#include "detect/background_planes.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "camera/depth_noise.h"
+
+namespace cpslam {
+namespace {
+
+constexpr int kRingCells = 8;
+constexpr int kMaxCells = 400;
+constexpr std::size_t kMaxPlanes = 3;
+constexpr int kHypotheses = 16;
+constexpr std::size_t kMinInliers = 20;
+constexpr double kMinShare = 0.15;  // of the ring
+
+/// (column, row, 1) and depth of a cell.
+struct RingCell {
+  Eigen::Vector3f at;
+  float depth_m;
+};
+
+std::vector<RingCell> cells_around(const cv::Mat1f& depth_m, const cv::Rect& box) {
+  const cv::Rect ring = cv::Rect(box.x - kRingCells, box.y - kRingCells, box.width + 2 * kRingCells,
+                                 box.height + 2 * kRingCells) &
+                        cv::Rect({}, depth_m.size());
+  const int n_cells = std::max(1, ring.area() - box.area());
+  const int step = std::max(1, static_cast<int>(std::sqrt(n_cells / double{kMaxCells})));
+  std::vector<RingCell> cells;
+  for (int y = ring.y; y < ring.br().y; y += step) {
+    for (int x = ring.x; x < ring.br().x; x += step) {
+      if (box.contains({x, y}) || depth_m(y, x) <= 0.0F) continue;
+      cells.push_back({{static_cast<float>(x), static_cast<float>(y), 1.0F}, depth_m(y, x)});
+    }
+  }
+  return cells;
+}
+
+GridPlane make_plane(const Eigen::Vector3f& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+bool on_plane(const GridPlane& plane, const RingCell& cell) {
+  return plane.contains(static_cast<int>(cell.at.x()), static_cast<int>(cell.at.y()), cell.depth_m);
+}
+
+std::optional<GridPlane> through(const RingCell& a, const RingCell& b, const RingCell& c) {
+  Eigen::Matrix3f m;
+  m << a.at.transpose(), b.at.transpose(), c.at.transpose();
+  constexpr float kLeastArea = 20.0F;  // cells^2: flatter triangles say nothing across
+  if (std::abs(m.determinant()) < kLeastArea) return std::nullopt;
+  return make_plane(m.inverse() * Eigen::Vector3f(1.0F / a.depth_m, 1.0F / b.depth_m, 1.0F / c.depth_m));
+}
+
+GridPlane refit(const GridPlane& plane, const std::vector<RingCell>& cells) {
+  Eigen::Matrix3f normal = Eigen::Matrix3f::Identity() * 1e-6F;
+  Eigen::Vector3f right = Eigen::Vector3f::Zero();
+  for (const RingCell& cell : cells) {
+    if (!on_plane(plane, cell)) continue;
+    normal += cell.at * cell.at.transpose();
+    right += cell.at / cell.depth_m;
+  }
+  return make_plane(normal.ldlt().solve(right));
+}
+
+std::optional<GridPlane> find_plane(const std::vector<RingCell>& cells, std::size_t min_inliers,
+                                    Random& random) {
+  if (cells.size() < min_inliers) return std::nullopt;
+  std::optional<GridPlane> best;
+  std::size_t best_inliers = min_inliers - 1;
+  const auto draw = [&]() -> const RingCell& { return cells[random.index(cells.size())]; };
+  for (int k = 0; k < kHypotheses; ++k) {
+    const RingCell& a = draw();
+    const RingCell& b = draw();
+    const std::optional<GridPlane> plane = through(a, b, draw());
+    if (!plane) continue;
+    const auto inliers = static_cast<std::size_t>(std::count_if(
+        cells.begin(), cells.end(), [&](const RingCell& cell) { return on_plane(*plane, cell); }));
+    if (inliers <= best_inliers) continue;
+    best_inliers = inliers;
+    best = plane;
+  }
+  return best ? std::optional(refit(*best, cells)) : std::nullopt;
+}
+
+}  // namespace
+
+bool GridPlane::contains(int x, int y, float depth_m) const {
+  const float inverse = inverse_depth(x, y);
+  if (inverse <= 0.0F) return false;
+  const auto noise_m = static_cast<float>(structured_light_sigma_m(static_cast<double>(depth_m)));
+  return std::abs(depth_m - 1.0F / inverse) < 0.015F + 3.0F * noise_m;
+}
+
+std::vector<GridPlane> find_background_planes(const cv::Mat1f& depth_m, const cv::Rect& box_cells,
+                                              Random& random) {
+  std::vector<RingCell> cells = cells_around(depth_m, box_cells);
+  const auto min_inliers =
+      std::max(kMinInliers, static_cast<std::size_t>(kMinShare * static_cast<double>(cells.size())));
+  std::vector<GridPlane> planes;
+  while (planes.size() < kMaxPlanes) {
+    const std::optional<GridPlane> plane = find_plane(cells, min_inliers, random);
+    if (!plane) break;
+    planes.push_back(*plane);
+    std::erase_if(cells, [&](const RingCell& cell) { return on_plane(*plane, cell); });
+  }
+  return planes;
+}
+
+}  // namespace cpslam

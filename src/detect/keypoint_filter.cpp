@@ -1,0 +1,142 @@
+#include "detect/keypoint_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "detect/depth_grid.h"
+
+namespace cpslam {
+namespace {
+
+constexpr float kRimPx = 4.0F;         // a corner on the outline of a person lies on either side of it
+constexpr int kNoDepthRimCells = 3;    // the sensor's shadow beside a person has no depth
+constexpr int kNoDepthReachCells = 3;  // how far to look for a depth that tells
+constexpr int kPublishedHypotheses = 20;
+
+bool contains(const PersonBox& box, const DepthKeypoint& k) {
+  const auto x = static_cast<double>(k.x);
+  const auto y = static_cast<double>(k.y);
+  return x >= box.x && y >= box.y && x < box.x + box.width && y < box.y + box.height;
+}
+
+float same_surface_m(float depth_m) {
+  return 0.12F + 0.03F * depth_m;
+}
+
+/// Distance (px) of a pixel coordinate from the span of a cell.
+float distance_px(float px, int cell) {
+  const float first = static_cast<float>(cell * kDepthCellPx) - 0.5F;
+  const float last = first + static_cast<float>(kDepthCellPx);
+  return std::max({first - px, px - last, 0.0F});
+}
+
+class Judge {
+ public:
+  Judge(const GridCamera& camera, const cv::Mat1f& depth_m, const std::vector<PersonTrack>& tracks)
+      : camera_(camera), depth_m_(depth_m), tracks_(tracks), labels_(paint_people(tracks, depth_m.size())) {}
+
+  [[nodiscard]] bool on_person(const DepthKeypoint& k) const {
+    const cv::Point cell(static_cast<int>((k.x + 0.5F) / static_cast<float>(kDepthCellPx)),
+                         static_cast<int>((k.y + 0.5F) / static_cast<float>(kDepthCellPx)));
+    return k.depth_m > 0.0F ? on_surface(k, cell) : hidden_in_person(k, cell);
+  }
+
+ private:
+  [[nodiscard]] bool on_surface(const DepthKeypoint& k, cv::Point cell) const {
+    const cv::Rect around = cv::Rect(cell.x - 1, cell.y - 1, 3, 3) & cv::Rect({}, labels_.size());
+    for (int y = around.y; y < around.br().y; ++y) {
+      for (int x = around.x; x < around.br().x; ++x) {
+        if (labels_(y, x) == 0 || std::hypot(distance_px(k.x, x), distance_px(k.y, y)) > kRimPx) continue;
+        if (std::abs(k.depth_m - depth_m_(y, x)) <= same_surface_m(k.depth_m)) return true;
+      }
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool hidden_in_person(const DepthKeypoint& k, cv::Point cell) const {
+    const cv::Rect grid({}, labels_.size());
+    const auto square = [&](int reach) {
+      return cv::Rect(cell.x - reach, cell.y - reach, 2 * reach + 1, 2 * reach + 1) & grid;
+    };
+    if (cv::countNonZero(labels_(square(kNoDepthRimCells))) > 0) return true;
+    if (cv::countNonZero(depth_m_(square(kNoDepthReachCells))) > 0) return false;
+    return std::any_of(tracks_.begin(), tracks_.end(),
+                       [&k](const PersonTrack& t) { return contains(t.box, k); });
+  }
+
+  const GridCamera& camera_;
+  const cv::Mat1f& depth_m_;
+  const std::vector<PersonTrack>& tracks_;
+  cv::Mat1b labels_;
+};
+
+/// Marks the person's keypoints among `members` of one box.
+void mark_as_published(std::span<const DepthKeypoint> keypoints, const std::vector<std::size_t>& members,
+                       Random& random, std::vector<std::uint8_t>& marks) {
+  if (members.size() < 2) {
+    for (const std::size_t i : members) marks[i] = 1;
+    return;
+  }
+  std::vector<std::size_t> best;
+  float best_likelihood = -1.0F;
+  for (int k = 0; k < kPublishedHypotheses; ++k) {
+    const float a = keypoints[members[random.index(members.size())]].depth_m;
+    const float b = keypoints[members[random.index(members.size())]].depth_m;
+    const float mean = 0.5F * (a + b);                            // (3)
+    const float sigma = std::max(0.5F * std::abs(a - b), 1e-3F);  // (4)
+    const float share = static_cast<float>(best.size()) / static_cast<float>(members.size());
+    const float threshold_m = 0.02F * (1.0F + share);  // (6)
+    std::vector<std::size_t> inliers;
+    float likelihood = 0.0F;
+    for (const std::size_t i : members) {
+      const float off = std::abs(keypoints[i].depth_m - mean);
+      if (off >= threshold_m) continue;
+      inliers.push_back(i);
+      likelihood += std::exp(-0.5F * off * off / (sigma * sigma)) / (2.5066283F * sigma);  // (5)
+    }
+    if (inliers.size() < best.size() || (inliers.size() == best.size() && likelihood <= best_likelihood))
+      continue;
+    best = std::move(inliers);
+    best_likelihood = likelihood;
+  }
+  for (const std::size_t i : best) marks[i] = 1;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> find_keypoints_on_people(const GridCamera& camera, const cv::Mat1f& depth_m,
+                                                   const std::vector<PersonTrack>& tracks,
+                                                   std::span<const DepthKeypoint> keypoints) {
+  std::vector<std::uint8_t> marks(keypoints.size(), 0);
+  if (tracks.empty()) return marks;
+  const Judge judge(camera, depth_m, tracks);
+  std::transform(keypoints.begin(), keypoints.end(), marks.begin(),
+                 [&judge](const DepthKeypoint& k) { return static_cast<std::uint8_t>(judge.on_person(k)); });
+  return marks;
+}
+
+std::vector<std::uint8_t> find_keypoints_in_boxes(std::span<const PersonBox> boxes,
+                                                  std::span<const DepthKeypoint> keypoints) {
+  std::vector<std::uint8_t> marks(keypoints.size(), 0);
+  std::transform(keypoints.begin(), keypoints.end(), marks.begin(), [boxes](const DepthKeypoint& k) {
+    return static_cast<std::uint8_t>(
+        std::any_of(boxes.begin(), boxes.end(), [&k](const PersonBox& box) { return contains(box, k); }));
+  });
+  return marks;
+}
+
+std::vector<std::uint8_t> find_keypoints_as_published(std::span<const PersonBox> boxes,
+                                                      std::span<const DepthKeypoint> keypoints,
+                                                      Random& random) {
+  std::vector<std::uint8_t> marks(keypoints.size(), 0);
+  for (const PersonBox& box : boxes) {
+    std::vector<std::size_t> members;
+    for (std::size_t i = 0; i < keypoints.size(); ++i) {
+      if (keypoints[i].depth_m > 0.0F && contains(box, keypoints[i])) members.push_back(i);
+    }
+    mark_as_published(keypoints, members, random, marks);
+  }
+  return marks;
+}
+
+}  // namespace cpslam

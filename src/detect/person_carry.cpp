@@ -1,0 +1,212 @@
+#include "detect/person_carry.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "detect/depth_grid.h"
+#include "detect/person_growth.h"
+#include "detect/still_age.h"
+
+namespace cpslam {
+namespace {
+
+constexpr int kGrowthCells = 2;      // an outline moves no further between two frames, once carried
+constexpr float kFoundShare = 0.3F;  // of the predicted surface: less, and something hides the person
+constexpr float kDepthGain = 0.3F;   // of the difference between found and predicted depth, on the velocity
+constexpr std::size_t kMinCells = 6;
+constexpr double kMaxStepS = 0.5;  // velocities predict nothing over a longer gap
+
+/// How far the depth of a moving person may be from where his velocity puts it.
+float agreement_m(float depth_m, double dt_s) {
+  return 0.06F + 0.02F * depth_m + 0.5F * static_cast<float>(dt_s);
+}
+
+/// What the previous frame says about this one.
+struct Prediction {
+  explicit Prediction(cv::Size size)
+      : static_m(size, 0.0F), person(size, std::uint8_t{0}), person_m(size, 0.0F) {}
+  cv::Mat1f static_m;  // depth of what belongs to nobody, 0 unknown
+  cv::Mat1b person;    // index of the track + 1
+  cv::Mat1f person_m;
+};
+
+void predict_static(const GridCamera& camera, const FrameStep& step, const cv::Mat1b& people,
+                    Prediction& prediction) {
+  const FloatTransform move(step.this_from_previous);
+  for (int cell = 0; cell < camera.n_cells(); ++cell) {
+    const float depth_m = step.previous_depth_m(cell);
+    if (depth_m <= 0.0F || people(cell) != 0) continue;
+    const Eigen::Vector3f moved = move * camera.point(cell, depth_m);
+    const int there = camera.cell_of(moved);
+    if (there < 0) continue;
+    float& known_m = prediction.static_m(there);
+    if (known_m <= 0.0F || moved.z() < known_m) known_m = moved.z();
+  }
+}
+
+GridSurface move_surface(const GridCamera& camera, const FloatTransform& move, const Eigen::Vector3f& offset,
+                         const GridSurface& surface) {
+  GridSurface moved;
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    const Eigen::Vector3f point = move * camera.point(surface.cells[i], surface.depth_m[i]) + offset;
+    if (const int there = camera.cell_of(point); there >= 0) moved.add(there, point.z());
+  }
+  return moved;
+}
+
+float mean_depth_m(const GridSurface& surface) {
+  if (surface.size() == 0) return 0.0F;
+  return std::accumulate(surface.depth_m.begin(), surface.depth_m.end(), 0.0F) /
+         static_cast<float>(surface.size());
+}
+
+cv::Point2f centre_px(const GridSurface& surface, int columns) {
+  cv::Point2f sum;
+  for (const int cell : surface.cells)
+    sum += cv::Point2f(static_cast<float>(cell % columns), static_cast<float>(cell / columns));
+  return sum *
+         (static_cast<float>(kDepthCellPx) / static_cast<float>(std::max<std::size_t>(1, surface.size())));
+}
+
+void carry_box(const GridSurface& before, const GridSurface& after, int columns, PersonBox& box) {
+  if (before.size() < kMinCells || after.size() < kMinCells) return;
+  const cv::Point2f shift = centre_px(after, columns) - centre_px(before, columns);
+  const auto scale = static_cast<double>(mean_depth_m(before) / mean_depth_m(after));
+  const double x = box.x + 0.5 * box.width + static_cast<double>(shift.x);
+  const double y = box.y + 0.5 * box.height + static_cast<double>(shift.y);
+  box.width *= scale;
+  box.height *= scale;
+  box.x = x - 0.5 * box.width;
+  box.y = y - 0.5 * box.height;
+}
+
+/// Finds one person after the other in the new depths.
+class Finder {
+ public:
+  Finder(const FrameStep& step, const Prediction& prediction)
+      : step_(step), prediction_(prediction), taken_(step.depth_m.size(), std::uint8_t{0}) {}
+
+  GridSurface find(std::uint8_t index, const GridSurface& predicted) {
+    found_.clear();
+    for (const int cell : predicted.cells) {
+      if (prediction_.person(cell) == index && taken_(cell) == 0 && agrees(cell)) take(cell);
+    }
+    n_agreeing_ = found_.size();
+    std::size_t begin = 0;
+    for (int round = 0; round < kGrowthCells; ++round) {
+      const std::size_t end = found_.size();
+      for (std::size_t i = begin; i < end; ++i) grow_from(found_.cells[i], index);
+      begin = end;
+    }
+    return found_;
+  }
+  [[nodiscard]] std::size_t n_agreeing() const { return n_agreeing_; }
+
+ private:
+  [[nodiscard]] bool agrees(int cell) const {
+    const float depth_m = step_.depth_m(cell);
+    if (depth_m <= 0.0F) return false;
+    const float off = std::abs(depth_m - prediction_.person_m(cell));
+    if (off > agreement_m(depth_m, step_.dt_s)) return false;
+    return !is_static(cell) || off < std::abs(depth_m - prediction_.static_m(cell));
+  }
+  [[nodiscard]] bool is_static(int cell) const {
+    const float static_m = prediction_.static_m(cell);
+    return static_m > 0.0F && std::abs(step_.depth_m(cell) - static_m) < still_tolerance_m(static_m);
+  }
+  void take(int cell) {
+    taken_(cell) = 1;
+    found_.add(cell, step_.depth_m(cell));
+  }
+  void grow_from(int cell, std::uint8_t index) {
+    const int columns = step_.depth_m.cols;
+    const int x = cell % columns;
+    const int y = cell / columns;
+    for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+      const cv::Point next(x + dx, y + dy);
+      if (!cv::Rect({}, step_.depth_m.size()).contains(next) || taken_(next) != 0) continue;
+      const int there = next.y * columns + next.x;
+      const float depth_m = step_.depth_m(next);
+      if (depth_m <= 0.0F || std::abs(depth_m - step_.depth_m(cell)) > connected_step_m(depth_m)) continue;
+      const std::uint8_t other = prediction_.person(next);
+      if ((other != 0 && other != index) || is_static(there)) continue;
+      take(there);
+    }
+  }
+
+  const FrameStep& step_;
+  const Prediction& prediction_;
+  cv::Mat1b taken_;
+  GridSurface found_;
+  std::size_t n_agreeing_ = 0;
+};
+
+void enter_people(const std::vector<GridSurface>& moved, Prediction& prediction) {
+  for (std::size_t t = 0; t < moved.size(); ++t) {
+    for (std::size_t i = 0; i < moved[t].size(); ++i) {
+      const int cell = moved[t].cells[i];
+      float& known_m = prediction.person_m(cell);
+      if (known_m > 0.0F && known_m <= moved[t].depth_m[i]) continue;
+      known_m = moved[t].depth_m[i];
+      prediction.person(cell) = static_cast<std::uint8_t>(t + 1);
+    }
+  }
+}
+
+void settle(const FrameStep& step, const GridSurface& moved, GridSurface found, std::size_t n_agreeing,
+            const Prediction& prediction, PersonTrack& track) {
+  const bool seen = found.size() >= kMinCells &&
+                    static_cast<float>(n_agreeing) >= kFoundShare * static_cast<float>(moved.size());
+  track.visible = std::move(found);
+  if (!seen) {
+    track.shape = moved;
+    return;
+  }
+  track.seen_s = step.time_s;
+  if (step.dt_s > 0.0 && n_agreeing >= kMinCells) {
+    std::vector<float> off;
+    off.reserve(n_agreeing);
+    for (std::size_t i = 0; i < n_agreeing; ++i) {
+      const int cell = track.visible.cells[i];
+      off.push_back(step.depth_m(cell) - prediction.person_m(cell));
+    }
+    const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
+    std::nth_element(off.begin(), middle, off.end());
+    track.velocity_m_per_s.z() += kDepthGain * *middle / static_cast<float>(step.dt_s);
+  }
+  track.shape = track.visible;
+}
+
+}  // namespace
+
+void carry_people(const GridCamera& camera, const FrameStep& step, std::vector<PersonTrack>& tracks) {
+  if (tracks.empty()) return;
+  const cv::Size size = step.depth_m.size();
+  Prediction prediction(size);
+  predict_static(camera, step, paint_people(tracks, size), prediction);
+
+  const FloatTransform move(step.this_from_previous);
+  std::vector<GridSurface> moved;
+  for (PersonTrack& track : tracks) {
+    track.velocity_m_per_s = move.rotation * track.velocity_m_per_s;
+    const auto dt_s = static_cast<float>(std::min(step.dt_s, kMaxStepS));
+    moved.push_back(move_surface(camera, move, track.velocity_m_per_s * dt_s, track.shape));
+    carry_box(track.shape, moved.back(), size.width, track.box);
+  }
+  enter_people(moved, prediction);
+
+  std::vector<std::size_t> nearest_first(tracks.size());
+  std::iota(nearest_first.begin(), nearest_first.end(), std::size_t{0});
+  std::stable_sort(nearest_first.begin(), nearest_first.end(), [&](std::size_t a, std::size_t b) {
+    return mean_depth_m(moved[a]) < mean_depth_m(moved[b]);
+  });
+  Finder finder(step, prediction);
+  for (const std::size_t t : nearest_first) {
+    GridSurface found = finder.find(static_cast<std::uint8_t>(t + 1), moved[t]);
+    settle(step, moved[t], std::move(found), finder.n_agreeing(), prediction, tracks[t]);
+  }
+}
+
+}  // namespace cpslam

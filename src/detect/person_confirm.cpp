@@ -1,0 +1,140 @@
+#include "detect/person_confirm.h"
+
+#include <algorithm>
+#include <array>
+
+#include "detect/still_age.h"
+
+namespace cpslam {
+namespace {
+
+constexpr float kMinOverlap = 0.3F;
+constexpr float kAroundBox = 0.15F;  // of its size
+constexpr int kMinFitCells = 4;
+constexpr int kMaxMissesOfNew = 1;  // who was detected only once or twice may be a chair
+constexpr int kMaxMisses = 3;
+constexpr int kConfirmationsToTrust = 3;
+constexpr double kMinMissedS = 0.7;
+constexpr double kHiddenS = 0.7;     // behind somebody else, say
+constexpr double kUnseenBoxS = 0.2;  // a box without any depth cannot be carried
+constexpr double kUndetectedS = 5.0;
+constexpr std::size_t kMaxPeople = 254;
+
+double area(const PersonBox& box) {
+  return std::max(box.width, 0.0) * std::max(box.height, 0.0);
+}
+
+float box_overlap(const PersonBox& a, const PersonBox& b) {
+  const double width = std::min(a.x + a.width, b.x + b.width) - std::max(a.x, b.x);
+  const double height = std::min(a.y + a.height, b.y + b.height) - std::max(a.y, b.y);
+  if (width <= 0.0 || height <= 0.0) return 0.0F;
+  const double common = width * height;
+  return static_cast<float>(common / (area(a) + area(b) - common));
+}
+
+struct Pair {
+  float overlap;
+  std::size_t box;
+  std::size_t track;
+};
+
+/// Boxes and people that may belong together, best first.
+std::vector<Pair> find_pairs(std::span<const PersonBox> boxes, const std::vector<PersonFit>& fits,
+                             const std::vector<PersonTrack>& tracks, const cv::Mat1b& labels) {
+  std::vector<Pair> pairs;
+  for (std::size_t b = 0; b < boxes.size(); ++b) {
+    std::array<std::size_t, 256> shared{};
+    for (const int cell : fits[b].cells) ++shared[labels(cell)];
+    for (std::size_t t = 0; t < tracks.size(); ++t) {
+      const std::size_t smaller = std::min(fits[b].cells.size(), tracks[t].visible.size());
+      const float of_surface =
+          smaller == 0 ? 0.0F : static_cast<float>(shared[tracks[t].number]) / static_cast<float>(smaller);
+      const float overlap = std::max(of_surface, box_overlap(boxes[b], tracks[t].box));
+      if (overlap >= kMinOverlap) pairs.push_back({overlap, b, t});
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Pair& a, const Pair& b) { return a.overlap > b.overlap; });
+  return pairs;
+}
+
+std::uint8_t free_number(const std::vector<PersonTrack>& tracks) {
+  std::array<bool, kMaxPeople + 1> used{};
+  for (const PersonTrack& track : tracks) used.at(track.number) = true;
+  std::uint8_t number = 1;
+  while (used.at(number)) ++number;
+  return number;
+}
+
+/// The fit decides inside the box. What was carried goes on around it: detectors' boxes cut off hands and
+/// feet.
+void merge(const PersonFit& fit, const cv::Rect& box_cells, const cv::Mat1f& depth_m,
+           const cv::Mat1b& still_age, PersonTrack& track) {
+  const int reach_x = static_cast<int>(kAroundBox * static_cast<float>(box_cells.width));
+  const int reach_y = static_cast<int>(kAroundBox * static_cast<float>(box_cells.height));
+  const cv::Rect around(box_cells.x - reach_x, box_cells.y - reach_y, box_cells.width + 2 * reach_x,
+                        box_cells.height + 2 * reach_y);
+  GridSurface merged;
+  for (const int cell : fit.cells) merged.add(cell, depth_m(cell));
+  for (const int cell : track.visible.cells) {
+    const cv::Point at(cell % depth_m.cols, cell / depth_m.cols);
+    const bool near_box = around.contains(at) && !box_cells.contains(at) && still_age(cell) < kStillAge;
+    if (near_box && !std::binary_search(fit.cells.begin(), fit.cells.end(), cell))
+      merged.add(cell, depth_m(cell));
+  }
+  track.visible = std::move(merged);
+}
+
+void confirm(const GridCamera& camera, const PersonBox& box, const PersonFit& fit, const cv::Mat1f& depth_m,
+             const cv::Mat1b& still_age, double time_s, PersonTrack& track) {
+  track.box = box;
+  track.confirmed_s = time_s;
+  ++track.confirmations;
+  track.misses = 0;
+  if (fit.cells.size() < kMinFitCells) return;
+  track.seen_s = time_s;
+  merge(fit, cells_of_box(camera, box), depth_m, still_age, track);
+  track.shape = track.visible;
+}
+
+bool is_missed_too_often(const PersonTrack& track, double time_s) {
+  const int most = track.confirmations >= kConfirmationsToTrust ? kMaxMisses : kMaxMissesOfNew;
+  return track.misses > most && time_s - track.confirmed_s > kMinMissedS;
+}
+
+}  // namespace
+
+void confirm_people(const GridCamera& camera, const cv::Mat1f& depth_m, const cv::Mat1b& still_age,
+                    double time_s, std::span<const PersonBox> boxes, std::span<const DepthKeypoint> keypoints,
+                    Random& random, std::vector<PersonTrack>& tracks) {
+  const cv::Mat1b labels = paint_people(tracks, depth_m.size());
+  const std::vector<PersonFit> fits =
+      fit_people(camera, {depth_m, labels, still_age}, boxes, keypoints, random);
+  std::vector<bool> box_used(boxes.size(), false);
+  std::vector<bool> track_used(tracks.size(), false);
+  for (const Pair& pair : find_pairs(boxes, fits, tracks, labels)) {
+    if (box_used[pair.box] || track_used[pair.track]) continue;
+    box_used[pair.box] = true;
+    track_used[pair.track] = true;
+    confirm(camera, boxes[pair.box], fits[pair.box], depth_m, still_age, time_s, tracks[pair.track]);
+  }
+  for (std::size_t t = 0; t < track_used.size(); ++t) tracks[t].misses += track_used[t] ? 0 : 1;
+  std::erase_if(tracks, [&](const PersonTrack& track) { return is_missed_too_often(track, time_s); });
+  for (std::size_t b = 0; b < boxes.size() && tracks.size() < kMaxPeople; ++b) {
+    if (box_used[b]) continue;
+    PersonTrack track;
+    track.number = free_number(tracks);
+    track.seen_s = time_s;
+    confirm(camera, boxes[b], fits[b], depth_m, still_age, time_s, track);
+    tracks.push_back(std::move(track));
+  }
+}
+
+void forget_people(double time_s, std::vector<PersonTrack>& tracks) {
+  std::erase_if(tracks, [time_s](const PersonTrack& track) {
+    const double patience_s = track.shape.size() == 0 ? kUnseenBoxS : kHiddenS;
+    return time_s - track.seen_s > patience_s || time_s - track.confirmed_s > kUndetectedS;
+  });
+}
+
+}  // namespace cpslam

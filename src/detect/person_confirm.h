@@ -1,0 +1,25 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "detect/grid_camera.h"
+#include "detect/person_fit.h"
+#include "detect/person_track.h"
+#include "util/random.h"
+
+namespace cpslam {
+
+/// Brings the people carried into a frame together with the boxes found in its image: boxes are fitted to the
+/// depths (fit_people), matched to the people they overlap most, and start a new person where they match
+/// none. Who has been missed by several detections in a row, and for some time, is forgotten: a missed
+/// detection (someone tilted, half out of the image) does not free his keypoints at once.
+void confirm_people(const GridCamera& camera, const cv::Mat1f& depth_m, const cv::Mat1b& still_age,
+                    double time_s, std::span<const PersonBox> boxes, std::span<const DepthKeypoint> keypoints,
+                    Random& random, std::vector<PersonTrack>& tracks);
+
+/// Forgets who has not been found again for some time, has left the image, or has not been detected for long
+/// (the detector may have died).
+void forget_people(double time_s, std::vector<PersonTrack>& tracks);
+
+}  // namespace cpslam

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <span>
+#include <vector>
+
+#include "cpslam/types.h"
+#include "detect/grid_camera.h"
+#include "detect/sdf_model.h"
+#include "util/random.h"
+
+namespace cpslam {
+
+/// A keypoint as the people filter sees it: px of the image as taken, depth 0 where there is none.
+struct DepthKeypoint {
+  float x = 0.0F;
+  float y = 0.0F;
+  float depth_m = 0.0F;
+};
+
+/// What is known of a frame before its boxes are looked at. Cells of the depth grid.
+struct SceneEvidence {
+  const cv::Mat1f& depth_m;
+  const cv::Mat1b& people;     ///< paint_people of those carried into the frame
+  const cv::Mat1b& still_age;  ///< carry_still_age
+};
+
+/// The surface of the person in a box.
+struct PersonFit {
+  SdfModel model;          ///< invalid: the box holds no depth
+  std::vector<int> cells;  ///< of the depth grid, ascending
+};
+
+/// Finds the person in every box: fit_sdf_model on the depths of keypoints and of grid cells inside the box,
+/// then growth of its inliers over depth-connected cells. Where boxes overlap, the nearer person is found
+/// first and what he covers takes no part in the next one's fit. The results are parallel to the boxes.
+/// Depths of people carried into the frame count for more, those of surfaces that have stood still for less.
+[[nodiscard]] std::vector<PersonFit> fit_people(const GridCamera& camera, const SceneEvidence& scene,
+                                                std::span<const PersonBox> boxes,
+                                                std::span<const DepthKeypoint> keypoints, Random& random);
+
+/// Cells of the grid that a box covers, at least one; empty when it lies outside the image.
+[[nodiscard]] cv::Rect cells_of_box(const GridCamera& camera, const PersonBox& box);
+
+}  // namespace cpslam

@@ -1,0 +1,122 @@
+#include "detect/person_flow.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace cpslam {
+namespace {
+
+constexpr float kWindowPx = 32.0F;
+constexpr float kDepthWindowM = 0.4F;
+constexpr int kMaxDistance = 64;  // of descriptors, bits
+constexpr float kRatio = 0.85F;   // to the second best
+constexpr std::size_t kMinMatches = 4;
+constexpr float kAgreeM = 0.06F;  // with the median displacement
+constexpr float kGain = 0.5F;     // of a new measurement against the known velocity
+constexpr float kMaxSpeedMPerS = 4.0F;
+
+float median(std::vector<float>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Eigen::Vector3f median(const std::vector<Eigen::Vector3f>& vectors) {
+  Eigen::Vector3f result;
+  std::vector<float> values(vectors.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::transform(vectors.begin(), vectors.end(), values.begin(), [axis](const auto& v) { return v[axis]; });
+    result[axis] = median(values);
+  }
+  return result;
+}
+
+class Flow {
+ public:
+  Flow(const GridCamera& camera, const FlowKeypoints& current) : camera_(camera), current_(current) {
+    for (const DepthKeypoint& k : current.keypoints) points_.push_back(lift(k));
+  }
+
+  [[nodiscard]] Eigen::Vector3f lift(const DepthKeypoint& k) const {
+    const Eigen::Vector2d px(static_cast<double>(k.x), static_cast<double>(k.y));
+    const PinholeCamera& camera = camera_.camera();
+    return camera
+        .back_project(camera.has_distortion() ? camera.undistort(px) : px, static_cast<double>(k.depth_m))
+        .cast<float>();
+  }
+
+  /// Index of the keypoint that looks like `descriptor` near an expected place, -1 when none or several do.
+  [[nodiscard]] int find(const Eigen::Vector3f& expected, const Descriptor& descriptor) const {
+    const PinholeCamera& camera = camera_.camera();
+    Eigen::Vector2d px = camera.project(expected.cast<double>());
+    if (camera.has_distortion()) px = camera.distort(px);
+    const auto x = static_cast<float>(px.x());
+    const auto y = static_cast<float>(px.y());
+    int best = -1;
+    int best_distance = kMaxDistance + 1;
+    int second_distance = 256;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const DepthKeypoint& k = current_.keypoints[i];
+      if (std::abs(k.x - x) > kWindowPx || std::abs(k.y - y) > kWindowPx || k.depth_m <= 0.0F) continue;
+      if (std::abs(k.depth_m - expected.z()) > kDepthWindowM) continue;
+      const int distance = descriptor_distance(descriptor, current_.descriptors[i]);
+      if (distance < best_distance) {
+        second_distance = best_distance;
+        best_distance = distance;
+        best = static_cast<int>(i);
+      } else {
+        second_distance = std::min(second_distance, distance);
+      }
+    }
+    return static_cast<float>(best_distance) <= kRatio * static_cast<float>(second_distance) ? best : -1;
+  }
+
+  [[nodiscard]] const Eigen::Vector3f& point(int i) const { return points_[static_cast<std::size_t>(i)]; }
+
+ private:
+  const GridCamera& camera_;
+  const FlowKeypoints& current_;
+  std::vector<Eigen::Vector3f> points_;
+};
+
+void correct_velocity(const std::vector<Eigen::Vector3f>& displacements, double dt_s, PersonTrack& track) {
+  if (displacements.size() < kMinMatches) return;
+  const Eigen::Vector3f middle = median(displacements);
+  const auto agreeing =
+      std::count_if(displacements.begin(), displacements.end(),
+                    [&middle](const Eigen::Vector3f& d) { return (d - middle).norm() < kAgreeM; });
+  if (2 * agreeing < static_cast<std::ptrdiff_t>(displacements.size())) return;
+  const Eigen::Vector3f measured = middle / static_cast<float>(dt_s);
+  if (measured.norm() > kMaxSpeedMPerS) return;
+  track.velocity_m_per_s += (track.velocity_known ? kGain : 1.0F) * (measured - track.velocity_m_per_s);
+  track.velocity_known = true;
+}
+
+}  // namespace
+
+void follow_keypoints(const GridCamera& camera, const FlowKeypoints& previous,
+                      const cv::Mat1b& previous_people, const FlowKeypoints& current,
+                      const SE3& this_from_previous, double dt_s, std::vector<PersonTrack>& tracks) {
+  if (tracks.empty() || dt_s <= 0.0) return;
+  const Flow flow(camera, current);
+  const FloatTransform move(this_from_previous);
+  std::vector<std::vector<Eigen::Vector3f>> displacements(tracks.size());
+  for (std::size_t i = 0; i < previous.keypoints.size(); ++i) {
+    const DepthKeypoint& k = previous.keypoints[i];
+    const int cell = k.depth_m > 0.0F ? camera.cell_of_pixel(k.x, k.y) : -1;
+    if (cell < 0 || previous_people(cell) == 0) continue;
+    const auto track = std::find_if(tracks.begin(), tracks.end(),
+                                    [&](const PersonTrack& t) { return t.number == previous_people(cell); });
+    if (track == tracks.end()) continue;
+    const Eigen::Vector3f unmoved = move * flow.lift(k);
+    const Eigen::Vector3f expected = unmoved + track->velocity_m_per_s * static_cast<float>(dt_s);
+    if (expected.z() <= 0.1F) continue;
+    const int match = flow.find(expected, previous.descriptors[i]);
+    if (match < 0) continue;
+    displacements[static_cast<std::size_t>(track - tracks.begin())].push_back(flow.point(match) - unmoved);
+  }
+  for (std::size_t t = 0; t < tracks.size(); ++t) correct_velocity(displacements[t], dt_s, tracks[t]);
+}
+
+}  // namespace cpslam

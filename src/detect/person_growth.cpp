@@ -1,0 +1,129 @@
+#include "detect/person_growth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "detect/depth_grid.h"
+
+namespace cpslam {
+namespace {
+
+constexpr float kFrontBandM = 0.7F;     // limits of the growth: an arm stretched out to the camera,
+constexpr float kBackBandM = 0.45F;     // a leg behind
+constexpr float kMinPieceShare = 0.2F;  // of the largest piece
+constexpr float kMaxPieceLeak = 0.5F;   // cells that go on outside the box, by the root of all
+constexpr float kInlierStepM = 0.1F;    // more between two inliers
+constexpr int kMarginCells = 1;         // that a person may reach over his box
+constexpr int kGapCells = 3;            // without readings
+
+float middle_px(int cell) {
+  return (static_cast<float>(cell) + 0.5F) * static_cast<float>(kDepthCellPx) - 0.5F;
+}
+
+}  // namespace
+
+PersonGrowth::PersonGrowth(const cv::Mat1f& depth_m, const cv::Mat1b& taken)
+    : depth_m_(depth_m), taken_(taken), piece_(depth_m.size(), 0) {}
+
+GrownSurface PersonGrowth::grow(const SdfModel& model, const cv::Rect& box_cells, const PlacePrior& prior,
+                                const std::vector<GridPlane>& background) {
+  model_ = model;
+  background_ = &background;
+  limits_ = cv::Rect(box_cells.x - kMarginCells, box_cells.y - kMarginCells,
+                     box_cells.width + 2 * kMarginCells, box_cells.height + 2 * kMarginCells) &
+            cv::Rect({}, depth_m_.size());
+  piece_(limits_).setTo(0);
+  std::vector<std::vector<int>> pieces;
+  std::vector<float> weights;
+  for (int y = box_cells.y; y < box_cells.br().y; ++y) {
+    for (int x = box_cells.x; x < box_cells.br().x; ++x) {
+      if (piece_(y, x) != 0 || !is_free(x, y) || !model_.contains(depth_m_(y, x))) continue;
+      pieces.push_back(flood(y * depth_m_.cols + x, static_cast<int>(pieces.size()) + 1));
+      weights.push_back(weigh(pieces.back(), prior));
+    }
+  }
+  GrownSurface surface;
+  if (pieces.empty()) return surface;
+  const auto largest = std::max_element(weights.begin(), weights.end());
+  const float enough = kMinPieceShare * *largest;
+  int leaks = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (weights[i] < enough) continue;
+    const int piece_leaks = count_leaks(pieces[i]);
+    const bool is_largest = static_cast<std::ptrdiff_t>(i) == largest - weights.begin();
+    if (!is_largest &&
+        static_cast<float>(piece_leaks) > kMaxPieceLeak * std::sqrt(static_cast<float>(pieces[i].size())))
+      continue;
+    leaks += piece_leaks;
+    surface.cells.insert(surface.cells.end(), pieces[i].begin(), pieces[i].end());
+  }
+  std::sort(surface.cells.begin(), surface.cells.end());
+  surface.leak = static_cast<float>(leaks) / static_cast<float>(box_cells.width + box_cells.height);
+  return surface;
+}
+
+int PersonGrowth::count_leaks(const std::vector<int>& cells) const {
+  const cv::Rect grid({}, depth_m_.size());
+  int leaks = 0;
+  for (const int cell : cells) {
+    const cv::Point at(cell % depth_m_.cols, cell / depth_m_.cols);
+    const auto goes_on = [&](cv::Point next) {
+      return grid.contains(next) && !limits_.contains(next) && depth_m_(next) > 0.0F && taken_(next) == 0 &&
+             std::abs(depth_m_(next) - depth_m_(at)) < connected_step_m(depth_m_(at));
+    };
+    const bool on_limit =
+        at.x == limits_.x || at.y == limits_.y || at.x + 1 == limits_.br().x || at.y + 1 == limits_.br().y;
+    if (on_limit && (goes_on(at + cv::Point(1, 0)) || goes_on(at - cv::Point(1, 0)) ||
+                     goes_on(at + cv::Point(0, 1)) || goes_on(at - cv::Point(0, 1))))
+      ++leaks;
+  }
+  return leaks;
+}
+
+bool PersonGrowth::is_free(int x, int y) const {
+  const float depth_m = depth_m_(y, x);
+  if (depth_m <= 0.0F || taken_(y, x) != 0) return false;
+  return std::none_of(background_->begin(), background_->end(),
+                      [&](const GridPlane& plane) { return plane.contains(x, y, depth_m); });
+}
+
+std::vector<int> PersonGrowth::flood(int seed, int number) {
+  std::vector<int> cells{seed};
+  piece_(seed) = number;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+      visit_neighbour(cells[i], dx, dy, number, cells);
+    }
+  }
+  return cells;
+}
+
+void PersonGrowth::visit_neighbour(int from, int dx, int dy, int number, std::vector<int>& cells) {
+  cv::Point next(from % depth_m_.cols + dx, from / depth_m_.cols + dy);
+  int gap = 0;
+  while (gap < kGapCells && limits_.contains(next) && depth_m_(next) <= 0.0F) {
+    next += cv::Point(dx, dy);
+    ++gap;
+  }
+  if (!limits_.contains(next) || piece_(next) != 0 || !is_free(next.x, next.y)) return;
+  const float here_m = depth_m_(from);
+  const float depth_m = depth_m_(next);
+  if (depth_m < model_.mean_m - kFrontBandM || depth_m > model_.mean_m + kBackBandM) return;
+  const bool both_inliers = model_.contains(here_m) && model_.contains(depth_m);
+  const float step_m = connected_step_m(depth_m) + (both_inliers ? kInlierStepM : 0.0F);
+  if (std::abs(depth_m - here_m) > step_m) return;
+  piece_(next) = number;
+  cells.push_back(next.y * depth_m_.cols + next.x);
+}
+
+float PersonGrowth::weigh(const std::vector<int>& cells, const PlacePrior& prior) const {
+  float sum = 0.0F;
+  for (const int cell : cells) {
+    if (!model_.contains(depth_m_(cell))) continue;
+    sum += prior.weight(middle_px(cell % depth_m_.cols), middle_px(cell / depth_m_.cols));
+  }
+  return sum;
+}
+
+}  // namespace cpslam

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "detect/background_planes.h"
+#include "detect/place_prior.h"
+#include "detect/sdf_model.h"
+
+namespace cpslam {
+
+/// How far two neighbouring cells of one surface may differ in depth (m).
+[[nodiscard]] inline float connected_step_m(float depth_m) {
+  return 0.03F + 0.015F * depth_m;
+}
+
+/// Cells of the depth grid, ascending, and how much of their outline is no outline: connected in depth to
+/// what lies outside the box.
+struct GrownSurface {
+  std::vector<int> cells;
+  float leak = 0.0F;  ///< cells that go on outside, by half the box's perimeter
+};
+
+/// Grows the depths of a model into a person's surface on the grid.
+class PersonGrowth {
+ public:
+  /// taken: cells (non-zero) that are somebody else's; both are referred to, not copied.
+  PersonGrowth(const cv::Mat1f& depth_m, const cv::Mat1b& taken);
+
+  /// The connected pieces inside the box that hold inliers of the model: the largest, and others that are not
+  /// small beside it and end inside the box (legs below a table). Cells are connected when they lie side by
+  /// side and have no step in depth, or a small one and both are inliers (an arm in front of a torso). A gap
+  /// without readings, the shadow of that arm, is jumped. What lies on the background planes is not the
+  /// person's.
+  [[nodiscard]] GrownSurface grow(const SdfModel& model, const cv::Rect& box_cells, const PlacePrior& prior,
+                                  const std::vector<GridPlane>& background);
+
+ private:
+  std::vector<int> flood(int seed, int number);
+  void visit_neighbour(int from, int dx, int dy, int number, std::vector<int>& cells);
+  [[nodiscard]] bool is_free(int x, int y) const;
+  [[nodiscard]] int count_leaks(const std::vector<int>& cells) const;
+  [[nodiscard]] float weigh(const std::vector<int>& cells, const PlacePrior& prior) const;
+
+  const cv::Mat1f& depth_m_;
+  const cv::Mat1b& taken_;
+  cv::Mat1i piece_;
+  // of the call at hand
+  SdfModel model_;
+  cv::Rect limits_;
+  const std::vector<GridPlane>* background_ = nullptr;
+};
+
+}  // namespace cpslam

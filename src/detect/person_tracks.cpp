@@ -1,0 +1,92 @@
+#include "detect/person_tracks.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "detect/person_carry.h"
+#include "detect/person_confirm.h"
+#include "detect/still_age.h"
+
+namespace cpslam {
+
+PersonTracks::PersonTracks(const PinholeCamera& camera, std::uint64_t seed)
+    : camera_(camera), random_(seed) {}
+
+void PersonTracks::begin_frame(std::uint64_t frame, double time_s, const cv::Mat1f& depth_m,
+                               const SE3& this_from_previous) {
+  FrameState state;
+  state.frame = frame;
+  state.time_s = time_s;
+  state.depth_m = depth_m;
+  state.this_from_previous = this_from_previous;
+  frames_.push_back(std::move(state));
+  forget_old();
+  carry_into(frames_.size() - 1);
+}
+
+void PersonTracks::set_keypoints(FlowKeypoints keypoints) {
+  frames_.back().keypoints = std::move(keypoints);
+  follow_into(frames_.size() - 1);
+}
+
+void PersonTracks::add_detections(const Detections& detections) {
+  const auto found = std::find_if(frames_.begin(), frames_.end(),
+                                  [&](const FrameState& state) { return state.frame == detections.frame; });
+  if (found == frames_.end()) return;
+  found->boxes = detections.boxes;
+  found->detected = true;
+  apply_boxes(*found);
+  for (auto i = static_cast<std::size_t>(found - frames_.begin()) + 1; i < frames_.size(); ++i) {
+    carry_into(i);
+    follow_into(i);
+    if (frames_[i].detected) apply_boxes(frames_[i]);
+  }
+}
+
+void PersonTracks::end_frame(const SE3& this_from_previous) {
+  frames_.back().this_from_previous = this_from_previous;
+}
+
+void PersonTracks::carry_into(std::size_t index) {
+  FrameState& state = frames_[index];
+  state.carried.clear();
+  if (index == 0) {
+    state.still_age = cv::Mat1b(state.depth_m.size(), kUnknownStillAge);
+  } else {
+    const FrameState& previous = frames_[index - 1];
+    if (state.still_age.empty()) {
+      state.still_age = carry_still_age(camera_, previous.depth_m, previous.still_age, state.depth_m,
+                                        state.this_from_previous);
+    }
+    state.carried = previous.tracks;
+    carry_people(camera_,
+                 {previous.depth_m, state.depth_m, state.this_from_previous, state.time_s,
+                  state.time_s - previous.time_s},
+                 state.carried);
+    forget_people(state.time_s, state.carried);
+  }
+  state.tracks = state.carried;
+}
+
+void PersonTracks::follow_into(std::size_t index) {
+  if (index == 0) return;
+  FrameState& state = frames_[index];
+  const FrameState& previous = frames_[index - 1];
+  if (previous.tracks.empty()) return;
+  follow_keypoints(camera_, previous.keypoints, paint_people(previous.tracks, camera_.size()),
+                   state.keypoints, state.this_from_previous, state.time_s - previous.time_s, state.carried);
+  state.tracks = state.carried;
+}
+
+void PersonTracks::apply_boxes(FrameState& state) {
+  state.tracks = state.carried;
+  confirm_people(camera_, state.depth_m, state.still_age, state.time_s, state.boxes,
+                 state.keypoints.keypoints, random_, state.tracks);
+}
+
+void PersonTracks::forget_old() {
+  // One frame more than the limit says, to carry from.
+  while (frames_.size() > 2 && frames_.back().time_s - frames_[1].time_s > kHistoryS) frames_.pop_front();
+}
+
+}  // namespace cpslam

@@ -22,8 +22,8 @@ class ImageMask {
 
   /// Not for empty masks. (x, y) inside the image, px; the pixel whose centre is nearest counts.
   [[nodiscard]] bool covers(float x, float y) const {
-    const int column = std::min(static_cast<int>(x + 0.5F) >> cell_shift_, mask_.cols - 1);
-    const int row = std::min(static_cast<int>(y + 0.5F) >> cell_shift_, mask_.rows - 1);
+    const int column = std::min(cvRound(x) >> cell_shift_, mask_.cols - 1);
+    const int row = std::min(cvRound(y) >> cell_shift_, mask_.rows - 1);
     return mask_.ptr(row)[column] != 0;
   }
 

@@ -94,7 +94,7 @@ TEST(ExtractionPrior, RealFramesCoveredBySevenTenthsKeepTheirBudget) {
 TEST(ExtractionPrior, WhatPeopleWearChangesNothingOutside) {
   // Faint texture with a few strong patches; on the people's place a bright pattern, or nothing.
   const cv::Rect people(200, 80, 240, 320);
-  const cv::Rect clothes(224, 104, 192, 272);  // out of reach of any patch outside
+  const cv::Rect clothes(206, 86, 228, 308);  // out of reach of FAST from outside, not of its cells
   cv::Mat plain = faint_image(14, 0.15);
   textured_image(kSize.width, 80, 15).copyTo(plain.rowRange(0, 80));
   cv::Mat dressed = plain.clone();
@@ -109,8 +109,14 @@ TEST(ExtractionPrior, WhatPeopleWearChangesNothingOutside) {
     OrbExtractor(settings).extract(image, features, {.people = coarse_mask(people), .n_on_people = 0});
     return features;
   };
-  EXPECT_EQ(outside(bare).keypoints.size(), 250U);
-  expect_equal(outside(dressed), outside(bare));
+  ASSERT_EQ(outside(bare).keypoints.size(), 250U);
+  // Their descriptors may differ: those look farther.
+  const OrbFeatures a = outside(dressed);
+  const OrbFeatures b = outside(bare);
+  EXPECT_TRUE(std::equal(a.keypoints.begin(), a.keypoints.end(), b.keypoints.begin(), b.keypoints.end(),
+                         [](const OrbKeypoint& k, const OrbKeypoint& l) {
+                           return k.x == l.x && k.y == l.y && k.response == l.response;
+                         }));
 }
 
 TEST(ExtractionPrior, FeaturesOutsideAreSpreadAsEverAndCarryTheSameDescriptors) {

@@ -1,5 +1,6 @@
 // The acceptance number is the counter "ratio" of ExtractBesideOpenCv: median time of OrbExtractor::extract
-// over the median of cv::ORB::detectAndCompute, both run in turn on the same frames.
+// over the median of cv::ORB::detectAndCompute, both run in turn on the same frames. ExtractWithPrior
+// compares extraction with people covering a share of the image with extraction without them in the same way.
 #include <benchmark/benchmark.h>
 
 #include <chrono>
@@ -56,6 +57,50 @@ void ExtractBesideOpenCv(benchmark::State& state) {
   cv::setNumThreads(threads_before);
 }
 BENCHMARK(ExtractBesideOpenCv)->Arg(1)->Arg(0)->Unit(benchmark::kMillisecond)->Iterations(15)->UseRealTime();
+
+/// A column of people in the middle, as a coarse mask.
+cv::Mat people_mask(cv::Size image_size, double share) {
+  cv::Mat mask = cv::Mat::zeros(image_size.height / 4, image_size.width / 4, CV_8UC1);
+  const int width = static_cast<int>(share * mask.cols);
+  mask.colRange((mask.cols - width) / 2, (mask.cols + width) / 2).setTo(1);
+  return mask;
+}
+
+/// Argument: share of the image that is people, per cent.
+void ExtractWithPrior(benchmark::State& state) {
+  const int threads_before = cv::getNumThreads();
+  cv::setNumThreads(1);
+  const std::vector<bench::BenchmarkFrame> frames = bench::load_frames(10);
+  OrbExtractor extractor{OrbSettings{}};
+  OrbFeatures features;
+  const ExtractionPrior prior{
+      .people = people_mask(frames.front().grey.size(), static_cast<double>(state.range(0)) / 100.0)};
+  constexpr double kLong = 1e9;
+  std::vector<double> plain_ms(frames.size(), kLong);
+  std::vector<double> prior_ms(frames.size(), kLong);
+  std::vector<double> more_ms(frames.size(), kLong);
+  for (auto _ : state) {
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const cv::Mat& grey = frames[i].grey;
+      prior_ms[i] = std::min(prior_ms[i], milliseconds([&] { extractor.extract(grey, features, prior); }));
+      plain_ms[i] = std::min(plain_ms[i], milliseconds([&] { extractor.extract(grey, features); }));
+      more_ms[i] =
+          std::min(more_ms[i], milliseconds([&] { extractor.extract_more(prior.people, 300, features); }));
+    }
+  }
+  state.counters["plain_ms"] = median(plain_ms);
+  state.counters["prior_ms"] = median(prior_ms);
+  state.counters["ratio"] = median(prior_ms) / median(plain_ms);
+  state.counters["more_ms"] = median(more_ms);
+  cv::setNumThreads(threads_before);
+}
+BENCHMARK(ExtractWithPrior)
+    ->Arg(10)
+    ->Arg(40)
+    ->Arg(70)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(15)
+    ->UseRealTime();
 
 }  // namespace
 }  // namespace cpslam

@@ -10,22 +10,8 @@
 namespace cpslam {
 namespace {
 
-constexpr int kCellPx = 30;
 constexpr int kMargin = 32;               // suppression reads one element before the row
 constexpr int kFirst = kOrbBorderPx - 1;  // suppression needs the ring around the allowed region
-
-/// Cell index of each of `size` pixels when [kOrbBorderPx, size - kOrbBorderPx) is cut into cells of about
-/// kCellPx.
-int number_cells(int size, std::vector<int>& cell_of_pixel) {
-  const int inside = size - 2 * kOrbBorderPx;
-  const int n_cells = std::max(1, inside / kCellPx);
-  const int width = (inside + n_cells - 1) / n_cells;
-  cell_of_pixel.assign(static_cast<std::size_t>(size), 0);
-  for (int i = kOrbBorderPx; i < size; ++i) {
-    cell_of_pixel[static_cast<std::size_t>(i)] = std::min((i - kOrbBorderPx) / width, n_cells - 1);
-  }
-  return n_cells;
-}
 
 /// Eight bytes, the first in the lowest bits.
 std::uint64_t load_word(const std::uint8_t* bytes) {
@@ -40,39 +26,32 @@ std::uint64_t load_word(const std::uint8_t* bytes) {
 
 }  // namespace
 
-CornerDetector::CornerDetector(int first_threshold, int second_threshold, Simd simd)
-    : first_threshold_(first_threshold),
-      second_threshold_(std::min(first_threshold, second_threshold)),
-      simd_(simd) {}
+CornerDetector::CornerDetector(int threshold, Simd simd) : threshold_(threshold), simd_(simd) {}
 
-void CornerDetector::prepare(cv::Size level_size) {
-  const auto row_size = static_cast<std::size_t>(level_size.width + 2 * kMargin + kFastBlock);
+void CornerDetector::prepare(int level_width) {
+  const auto row_size = static_cast<std::size_t>(level_width + 2 * kMargin + kFastBlock);
   for (std::vector<std::uint8_t>& row : contrast_) row.assign(row_size, 0);
   kept_.assign(row_size, 0);
   busy_words_.resize(row_size / sizeof(std::uint64_t) + 1);
-  cells_per_row_ = number_cells(level_size.width, cell_column_);
-  const int cell_rows = number_cells(level_size.height, cell_row_);
-  cell_is_strong_.assign(static_cast<std::size_t>(cells_per_row_ * cell_rows), 0);
 }
 
 void CornerDetector::detect(const cv::Mat& level, std::vector<Corner>& corners) {
   corners.clear();
-  prepare(level.size());
+  prepare(level.cols);
   const int count = level.cols - 2 * kFirst;
   const int last = level.rows - kFirst - 1;  // the ring's last row
   for (int y = kFirst; y <= last; ++y) {
     std::uint8_t* below = contrast_[y % 3].data() + kMargin;
-    fast_contrast_row(level.ptr(y) + kFirst, static_cast<std::ptrdiff_t>(level.step), count,
-                      second_threshold_, below, simd_);
+    fast_contrast_row(level.ptr(y) + kFirst, static_cast<std::ptrdiff_t>(level.step), count, threshold_,
+                      below, simd_);
     if (y < kFirst + 2) continue;
     suppress_non_maxima_row(contrast_[(y - 2) % 3].data() + kMargin, contrast_[(y - 1) % 3].data() + kMargin,
-                            below, count, second_threshold_, kept_.data() + kMargin, simd_);
+                            below, count, threshold_, kept_.data() + kMargin, simd_);
     // What belongs to the ring and to the rounding up to whole blocks is no corner.
     kept_[kMargin] = 0;
     std::fill(kept_.begin() + kMargin + count - 1, kept_.end(), std::uint8_t{0});
     collect_row(y - 1, corners);
   }
-  keep_by_cell(corners);
 }
 
 void CornerDetector::collect_row(int y, std::vector<Corner>& corners) {
@@ -83,7 +62,6 @@ void CornerDetector::collect_row(int y, std::vector<Corner>& corners) {
     busy_words_[n_words] = i;
     n_words += load_word(&kept_[i]) != 0 ? 1U : 0U;
   }
-  const int row_cell = cell_row_[static_cast<std::size_t>(y)] * cells_per_row_;
   for (std::size_t w = 0; w < n_words; ++w) {
     // One corner per turn: strict maxima are never neighbours, mostly there is one in a word.
     for (std::uint64_t word = load_word(&kept_[busy_words_[w]]); word != 0;) {
@@ -92,19 +70,8 @@ void CornerDetector::collect_row(int y, std::vector<Corner>& corners) {
       const int response = static_cast<int>((word >> (8 * byte)) & 255U) - 1;
       word &= ~(std::uint64_t{255} << (8 * byte));
       corners.push_back({x, y, response});
-      const int cell = row_cell + cell_column_[static_cast<std::size_t>(x)];
-      cell_is_strong_[static_cast<std::size_t>(cell)] |= response >= first_threshold_ ? 1U : 0U;
     }
   }
-}
-
-void CornerDetector::keep_by_cell(std::vector<Corner>& corners) const {
-  std::erase_if(corners, [this](const Corner& c) {
-    if (c.response >= first_threshold_) return false;
-    const int cell = cell_row_[static_cast<std::size_t>(c.y)] * cells_per_row_ +
-                     cell_column_[static_cast<std::size_t>(c.x)];
-    return cell_is_strong_[static_cast<std::size_t>(cell)] != 0;
-  });
 }
 
 }  // namespace cpslam

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <span>
 #include <vector>
 
 #include "camera/pinhole_camera.h"
@@ -29,7 +32,18 @@ struct FrameFeatures {
   [[nodiscard]] int size() const { return static_cast<int>(keypoints.size()); }
 };
 
-/// Makes FrameFeatures of images. Keeps working memory between calls: one builder per thread.
+/// Keypoints of a frame before anybody said which of them to keep. The vectors are parallel.
+struct KeypointCandidates {
+  OrbFeatures orb;                    ///< distorted px: where to look in the images
+  std::vector<Keypoint> undistorted;  ///< the same keypoints
+  std::vector<DepthReading> depth;    ///< at the colour image's instant
+
+  [[nodiscard]] int size() const { return static_cast<int>(undistorted.size()); }
+};
+
+/// Makes FrameFeatures of images, in two steps so that a filter can work in between: extract() (and extend(),
+/// when the filter leaves too few), then finish(). Keeps working memory between calls: one builder per
+/// thread.
 class FrameFeaturesBuilder {
  public:
   FrameFeaturesBuilder(const CameraSettings& camera, const OrbSettings& orb);
@@ -39,20 +53,34 @@ class FrameFeaturesBuilder {
   /// or size.
   /// depth_from_colour: how the camera moved from the exposure of the colour image to that of the depth
   /// image; the depths are brought back to the colour image's instant with it.
+  /// The result is the builder's and lasts until the next call of extract() or build().
+  KeypointCandidates& extract(const cv::Mat& grey, const cv::Mat& depth, const SE3& depth_from_colour = {},
+                              const ExtractionPrior& prior = {});
+
+  /// Appends up to `wanted` keypoints outside `excluded`, as OrbExtractor::extract_more does, to what
+  /// extract() gave; the depth image must still be there, unchanged. Returns how many were added.
+  int extend(KeypointCandidates& candidates, const cv::Mat& excluded, int wanted);
+
+  /// The candidates for which `keep`, parallel to them, is not zero. Throws InputError on another length.
+  [[nodiscard]] std::shared_ptr<const FrameFeatures> finish(const KeypointCandidates& candidates,
+                                                            std::span<const std::uint8_t> keep) const;
+
+  /// Both steps, keeping all.
   [[nodiscard]] std::shared_ptr<const FrameFeatures> build(const cv::Mat& grey, const cv::Mat& depth,
                                                            const SE3& depth_from_colour = {});
 
  private:
-  void add_keypoint(const OrbKeypoint& found, const cv::Mat& depth, const SE3& depth_from_colour,
-                    FrameFeatures& features) const;
-  [[nodiscard]] DepthReading read_depth(const Eigen::Vector2d& distorted_px, const cv::Mat& depth) const;
-  [[nodiscard]] DepthReading follow_motion(DepthReading reading, const Eigen::Vector2d& undistorted_px,
-                                           const cv::Mat& depth, const SE3& depth_from_colour) const;
+  void complete(KeypointCandidates& candidates) const;
+  void add_keypoint(const KeypointCandidates& candidates, std::size_t i, FrameFeatures& features) const;
+  [[nodiscard]] DepthReading read_depth(const Eigen::Vector2d& distorted_px) const;
+  [[nodiscard]] DepthReading follow_motion(DepthReading reading, const Eigen::Vector2d& undistorted_px) const;
 
   PinholeCamera camera_;
   double metres_per_unit_;
   OrbExtractor extractor_;
-  OrbFeatures found_;
+  KeypointCandidates candidates_;
+  cv::Mat depth_;  // of the frame in hand, shared with the caller
+  SE3 depth_from_colour_;
 };
 
 }  // namespace cpslam

@@ -1,17 +1,11 @@
 #include "features/image_check.h"
 
-#include <string>
-
 #include "cpslam/error.h"
 
 namespace cpslam {
-namespace {
-
 std::string size_text(cv::Size size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
-
-}  // namespace
 
 void check_images(const cv::Mat& colour, const cv::Mat& depth, cv::Size expected) {
   if (colour.empty()) throw InputError("the colour image is empty");

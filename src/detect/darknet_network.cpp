@@ -169,9 +169,9 @@ class NetworkReader {
     DarknetLayer layer = layer_at(indices.front(), "layers");
     for (std::size_t i = 1; i < indices.size(); ++i) {
       const DarknetLayer& other = layer_at(indices[i], "layers");
-      if (other.output.width != layer.output.width || other.output.height != layer.output.height ||
-          other.stride != layer.stride) {
-        section_->fail("joins layers of different sizes", "layers");
+      if (other.stride != layer.stride) section_->fail("joins layers of different sizes", "layers");
+      if (other.output.width != layer.output.width || other.output.height != layer.output.height) {
+        fail_input_size();
       }
       layer.output.channels += other.output.channels;
       if (layer.output.channels > kMaxFilters) section_->fail("joins too many channels", "layers");
@@ -248,12 +248,20 @@ class NetworkReader {
   void check_whole() {
     if (network_.heads.empty()) sections_.back().fail("is the last section, but there was no [yolo]");
     network_.n_classes = network_.heads.front().n_classes;
+    const int stride = largest_stride();
+    if (network_.input.width % stride != 0 || network_.input.height % stride != 0) fail_input_size();
+  }
+
+  [[nodiscard]] int largest_stride() const {
     int stride = 1;
     for (const DarknetLayer& layer : network_.layers) stride = std::max(stride, layer.stride);
-    if (network_.input.width % stride == 0 && network_.input.height % stride == 0) return;
+    return stride;
+  }
+
+  [[noreturn]] void fail_input_size() const {
     sections_.front().fail("the input size " + std::to_string(network_.input.width) + " x " +
                            std::to_string(network_.input.height) + " must be a multiple of " +
-                           std::to_string(stride) + " px, the network's largest stride");
+                           std::to_string(largest_stride()) + " px, the network's largest stride");
   }
 
   const std::vector<DarknetSection>& sections_;

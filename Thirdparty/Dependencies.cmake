@@ -1,7 +1,7 @@
 # How each outside dependency is found; Thirdparty/README.md gives package, version, licence and reason.
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
-find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc imgcodecs features2d calib3d)
+find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc imgcodecs features2d calib3d dnn)
 find_package(Ceres 2.1 REQUIRED COMPONENTS SuiteSparse)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json 3.10 REQUIRED)

@@ -60,16 +60,15 @@ struct DetectorSettings {
   std::string boxes_file;     ///< kBoxes: "timestamp x y width height confidence" a line
   std::string model_cfg;      ///< kYolo: Darknet .cfg
   std::string model_weights;  ///< kYolo: Darknet .weights
-  int input_width = 0;        ///< of the network, px; 0: as its .cfg says
+  int input_width = 0;        ///< of the network, px, a multiple of its largest stride; 0: as its .cfg says
   int input_height = 0;
   double confidence_threshold = 0.3;
   double nms_threshold = 0.45;  ///< intersection over union above which the weaker of two boxes goes
   std::vector<int> classes{0};  ///< indices of the classes that count as people
-  int n_threads = 0;            ///< of the network; 0: as many as the machine has
-  bool quantise = false;        ///< run the network in 8-bit integers
-  std::string calibration;      ///< folder with pictures to calibrate the 8-bit network on
-  std::string cache_dir;    ///< where the calibration is kept for the next time; empty: beside the weights
-  double timeout_s = 10.0;  ///< a detection that takes longer is given up, loudly
+  int n_threads = 0;            ///< > 0: for cv::setNumThreads, which holds for the process; 0: left as it is
+  bool quantise = false;        ///< run the network in 8-bit integers: not faster for every network
+  std::string calibration;      ///< folder with pictures to calibrate the 8-bit network on, at every start
+  double timeout_s = 10.0;      ///< a detection that takes longer is given up, loudly
   std::optional<BoxesPolicy> policy;  ///< empty: kLatest in real time, else kWait
   /// kLatest with --sequential, or to try it out: detections are begun at most this often (0: at every frame)
   /// and arrive this much later, both counted in frame stamps.

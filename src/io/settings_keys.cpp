@@ -41,6 +41,13 @@ constexpr std::array kKeys = std::to_array<SettingsKey>({
     {"Tracking.minInliers", [](Settings& s) -> M { return &s.tracking.min_inliers; }, 6, 10000},
     {"Mapping.localBaIterations", [](Settings& s) -> M { return &s.mapping.local_ba_iterations; }, 0, 1000},
     {"Mapping.queueCapacity", [](Settings& s) -> M { return &s.mapping.queue_capacity; }, 1, 1000},
+    {"Detector.inputWidth", [](Settings& s) -> M { return &s.detector.input_width; }, 0, 4096},
+    {"Detector.inputHeight", [](Settings& s) -> M { return &s.detector.input_height; }, 0, 4096},
+    {"Detector.confidenceThreshold", [](Settings& s) -> M { return &s.detector.confidence_threshold; }, 0.001,
+     1.0},
+    {"Detector.nmsThreshold", [](Settings& s) -> M { return &s.detector.nms_threshold; }, 0.0, 1.0},
+    {"Detector.threads", [](Settings& s) -> M { return &s.detector.n_threads; }, 0, 256},
+    {"Detector.timeout", [](Settings& s) -> M { return &s.detector.timeout_s; }, 0.1, 3600.0},
 });
 
 constexpr auto kIgnored = std::to_array<std::string_view>({

@@ -2,38 +2,41 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
+#include <memory>
+#include <utility>
 
 #include "common/console_log.h"
+#include "common/output_folder.h"
+#include "common/picture_writer.h"
 #include "common/progress_bar.h"
 #include "common/run_program.h"
 #include "common/run_report.h"
 #include "common/stop_signal.h"
 #include "cpslam/error.h"
 #include "cpslam/system.h"
-#include "frame_pacer.h"
+#include "detect/recording_detector.h"
 #include "io/atomic_file.h"
-#include "io/image_reader.h"
+#include "io/person_boxes.h"
 #include "io/trajectory_error.h"
 #include "io/trajectory_io.h"
 #include "io/tum_sequence.h"
 #include "rgbd_tum_options.h"
+#include "run_sequence.h"
 
 namespace cpslam::program {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kReadAhead = 8;
-constexpr std::size_t kMaxWarnings = 10;
-
 Settings effective_settings(const RgbdTumOptions& options) {
   Settings settings = load_settings(options.settings);
   settings.sequential = options.sequential;
   settings.realtime = options.realtime;
   settings.seed = options.seed;
+  apply(options.detector, settings);
   return settings;
 }
 
@@ -50,16 +53,6 @@ std::vector<RgbdEntry> select_entries(const RgbdTumOptions& options) {
   return entries;
 }
 
-/// Refuses early what would only fail when the results are written.
-void prepare_output(const std::string& dir) {
-  std::error_code error;
-  fs::create_directories(dir, error);
-  const fs::path probe = fs::path(dir) / ".rgbd_tum_probe";
-  const bool writable = !error && fs::is_directory(dir) && std::ofstream(probe).put('\n').good();
-  fs::remove(probe, error);
-  if (!writable) throw InputError("--output " + dir + ": cannot write there");
-}
-
 void check_vocabulary(const RgbdTumOptions& options) {
   if (options.vocabulary != "-" && !fs::exists(options.vocabulary)) {
     throw InputError(options.vocabulary + ": no such vocabulary; give - to go without");
@@ -70,58 +63,27 @@ void check_vocabulary(const RgbdTumOptions& options) {
   }
 }
 
-/// Counts and names the frames that could not be used, the first few of them one by one.
-class UnusableFrames {
- public:
-  explicit UnusableFrames(ProgressBar& bar) : bar_(bar) {}
-  void add(double time_s, const std::string& reason) {
-    if (++count_ > kMaxWarnings) return;
-    char stamp[32];
-    std::snprintf(stamp, sizeof stamp, "%.6f", time_s);
-    bar_.print_line("warning: frame " + std::string(stamp) + " left out: " + reason);
-    if (count_ == kMaxWarnings) bar_.print_line("warning: further frames that are left out are only counted");
-  }
-  [[nodiscard]] std::size_t count() const { return count_; }
+/// The settings' detector, wrapped to keep what it finds when that is to be saved.
+std::unique_ptr<PersonDetector> make_recorded_detector(const RgbdTumOptions& options,
+                                                       const Settings& settings, const LogSink& log,
+                                                       const RecordingDetector*& recorder) {
+  std::unique_ptr<PersonDetector> detector = make_detector(settings.detector, log);
+  if (options.detector.save_boxes.empty()) return detector;
+  auto recording = std::make_unique<RecordingDetector>(std::move(detector));
+  recorder = recording.get();
+  return recording;
+}
 
- private:
-  ProgressBar& bar_;
-  std::size_t count_ = 0;
-};
-
-/// Feeds the sequence; returns 0 or 1 and fills the report's counts. Whatever fails, the system keeps what it
-/// has.
-int run(System& system, const std::vector<RgbdEntry>& entries, ProgressBar& bar, RunReport& report) {
-  ReadAhead reader(entries, kReadAhead);
-  UnusableFrames unusable(bar);
-  FramePacer pacer;
-  RgbdImages images;
-  int exit_code = kExitOk;
-  for (std::size_t done = 0; !stop_requested() && reader.next(images); bar.update(++done)) {
-    if (!images.error.empty()) {
-      unusable.add(images.time_s, images.error);
-      continue;
-    }
-    if (report.settings.realtime && !pacer.wait_for(images.time_s, 1.0 / report.settings.camera.fps)) {
-      ++report.dropped;
-      continue;
-    }
-    try {
-      system.track(images.colour, images.depth, images.time_s, images.depth_time_s);
-    } catch (const InputError& error) {
-      unusable.add(images.time_s, error.what());
-    } catch (const std::exception& error) {
-      bar.print_line(std::string("error: ") + error.what() + "; saving what was tracked");
-      exit_code = kExitFailure;
-      break;
-    }
-  }
-  report.interrupted = stop_requested();
-  report.unreadable = unusable.count();
-  return report.unreadable > 0 ? kExitFailure : exit_code;
+std::unique_ptr<PictureWriter> make_picture_writer(const RgbdTumOptions& options, const LogSink& log) {
+  if (options.detector.draw.empty()) return nullptr;
+  using WhenBusy = PictureWriter::WhenBusy;
+  const WhenBusy when_busy = options.realtime ? WhenBusy::kLeaveOut : WhenBusy::kWait;
+  return std::make_unique<PictureWriter>(options.detector.draw, when_busy, log);
 }
 
 /// Finishes the system and writes every result that can be written, one failure not costing the others.
-int save(System& system, const RgbdTumOptions& options, RunReport& report) {
+int save(System& system, const RgbdTumOptions& options, const RecordingDetector* recorder,
+         RunReport& report) {
   int exit_code = kExitOk;
   const auto attempt = [&exit_code](const auto& step) {
     try {
@@ -139,6 +101,8 @@ int save(System& system, const RgbdTumOptions& options, RunReport& report) {
     write_trajectory((dir / "CameraTrajectory.txt").string(), trajectory);
   });
   attempt([&] { write_trajectory((dir / "KeyFrameTrajectory.txt").string(), system.keyframe_trajectory()); });
+  if (recorder != nullptr)
+    attempt([&] { write_person_boxes(options.detector.save_boxes, recorder->recorded()); });
   const fs::path truth = fs::path(options.sequence) / "groundtruth.txt";
   if (fs::exists(truth)) {
     attempt([&] { report.ate = absolute_trajectory_error(read_trajectory(truth.string()), trajectory); });
@@ -147,6 +111,25 @@ int save(System& system, const RgbdTumOptions& options, RunReport& report) {
   report.peak_memory_mb = peak_memory_mb();
   attempt([&] { write_file_atomically((dir / "stats.json").string(), to_json(report)); });
   return exit_code;
+}
+
+void print_summary(const RgbdTumOptions& options, const RunReport& report, const PictureWriter* pictures) {
+  std::cout << to_text(report) << "results     " << (fs::path(options.output) / "").string()
+            << "{CameraTrajectory.txt, KeyFrameTrajectory.txt, stats.json}\n";
+  if (!options.detector.save_boxes.empty())
+    std::cout << "boxes       " << options.detector.save_boxes << "\n";
+  if (pictures == nullptr) return;
+  std::cout << "pictures    " << (fs::path(options.detector.draw) / "").string();
+  if (pictures->left_out() > 0) std::cout << ", without " << pictures->left_out() << " to keep up";
+  std::cout << "\n";
+}
+
+/// The detector's thread is inside somebody else's code that does not return, and cannot be ended alone.
+[[noreturn]] void end_beside_stuck_detector() {
+  std::cout << std::flush;
+  std::fprintf(stderr, "error: the person detector has not come back; ending without it\n");
+  std::fflush(nullptr);
+  std::_Exit(kExitFailure);
 }
 
 int main_program(const RgbdTumOptions& options) {
@@ -158,25 +141,30 @@ int main_program(const RgbdTumOptions& options) {
   if (options.print_settings) std::cout << to_yaml(report.settings) << std::flush;
   check_vocabulary(options);
   const std::vector<RgbdEntry> entries = select_entries(options);
-  prepare_output(options.output);
+  prepare_output_folder("--output", options.output);
+  if (!options.detector.save_boxes.empty()) check_folder_of("--save-boxes", options.detector.save_boxes);
   report.frames_in_sequence = entries.size();
 
-  install_stop_signal();
   ProgressBar bar("tracking", entries.size(), !options.quiet);
-  System system(report.settings, console_log(bar, options.quiet));
-  const int run_code = run(system, entries, bar, report);
+  const LogSink log = console_log(bar, options.quiet);
+  const RecordingDetector* recorder = nullptr;
+  std::unique_ptr<PersonDetector> detector = make_recorded_detector(options, report.settings, log, recorder);
+  const std::unique_ptr<PictureWriter> pictures = make_picture_writer(options, log);
+  System system(report.settings, std::move(detector), log);
+  install_stop_signal();
+  const int run_code = run_sequence(system, entries, bar, pictures.get(), report);
+  if (pictures) pictures->finish();
   bar.finish();
   report.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const int save_code = save(system, options, report);
-  if (!options.quiet) {
-    std::cout << to_text(report) << "results     " << (fs::path(options.output) / "").string()
-              << "{CameraTrajectory.txt, KeyFrameTrajectory.txt, stats.json}\n";
-  }
+  const int save_code = save(system, options, recorder, report);
+  if (!options.quiet) print_summary(options, report, pictures.get());
+  const PeopleStatistics& people = report.statistics.people;
+  if (people.detector_stuck) end_beside_stuck_detector();
   if (report.statistics.frames == 0 && !report.interrupted) {
     throw InputError(options.sequence + ": none of its " + std::to_string(entries.size()) +
                      " frames could be used");
   }
-  return std::max(run_code, save_code);
+  return std::max({run_code, save_code, people.detector_failures > 0 ? kExitFailure : kExitOk});
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "detector_options.h"
+
 namespace cpslam::program {
 
 /// The command line of rgbd_tum.
@@ -21,6 +23,7 @@ struct RgbdTumOptions {
   std::size_t start = 0;
   std::optional<std::size_t> max_frames;
   std::uint64_t seed = 0;
+  DetectorOptions detector;
 };
 
 /// Parses the command line. When the program has nothing more to do (--help, --version, bad usage), prints

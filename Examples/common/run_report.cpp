@@ -2,29 +2,17 @@
 
 #include <sys/resource.h>
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include "common/people_report.h"
+#include "common/report_text.h"
 
 namespace cpslam::program {
 namespace {
 
-const StageTimes* find_stage(const Statistics& statistics, const std::string& name) {
-  for (const StageTimes& stage : statistics.stages) {
-    if (stage.stage == name) return &stage;
-  }
-  return nullptr;
-}
-
 double tracked_ratio(const RunReport& report) {
   if (report.frames_in_sequence == 0) return 0.0;
   return static_cast<double>(report.statistics.tracked) / static_cast<double>(report.frames_in_sequence);
-}
-
-template <typename... Values>
-std::string line(const char* format, Values... values) {
-  char buffer[256];
-  std::snprintf(buffer, sizeof buffer, format, values...);
-  return std::string(buffer) + "\n";
 }
 
 nlohmann::ordered_json settings_json(const Settings& s) {
@@ -56,6 +44,8 @@ nlohmann::ordered_json settings_json(const Settings& s) {
           {"mapping",
            {{"local_ba_iterations", s.mapping.local_ba_iterations},
             {"queue_capacity", s.mapping.queue_capacity}}},
+          {"detector", detector_settings_json(s)},
+          {"people", people_settings_json(s.people)},
           {"sequential", s.sequential},
           {"realtime", s.realtime},
           {"seed", s.seed}};
@@ -100,6 +90,8 @@ std::string to_json(const RunReport& report) {
   if (const StageTimes* track = find_stage(s, "track")) {
     json["tracking_ms"] = {{"p50", track->p50_ms}, {"p95", track->p95_ms}, {"max", track->max_ms}};
   }
+  json["people"] = nullptr;
+  if (has_people(report)) json["people"] = people_json(report);
   json["peak_memory_mb"] = report.peak_memory_mb;
   json["wall_s"] = report.wall_s;
   json["ate"] = nullptr;
@@ -129,6 +121,7 @@ std::string to_text(const RunReport& report) {
     text += line("tracking    %.1f ms a frame (median), %.1f ms (95 %%), %.1f ms (max)", track->p50_ms,
                  track->p95_ms, track->max_ms);
   }
+  if (has_people(report)) text += people_text(report);
   text += line("total       %.1f s, peak memory %.0f MB", report.wall_s, report.peak_memory_mb);
   if (report.ate) {
     text += line("ATE         %.4f m RMSE, %.4f m median, %.4f m max over %zu poses", report.ate->rmse_m,

@@ -20,6 +20,7 @@ struct RunReport {
   std::size_t unreadable = 0;  ///< frames with a bad file or refused by track()
   std::size_t dropped = 0;     ///< left out to keep up with real time
   bool interrupted = false;
+  double sequence_s = 0.0;  ///< from the first frame to the last that was read, in their stamps
   double wall_s = 0.0;
   double peak_memory_mb = 0.0;
   std::optional<TrajectoryError> ate;

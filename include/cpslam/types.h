@@ -61,9 +61,11 @@ struct StageTimes {
 struct PeopleStatistics {
   std::size_t detections = 0;         ///< images the detector has finished, or the caller brought boxes for
   std::size_t detector_failures = 0;  ///< of them: threw, or were given up
-  std::size_t boxes = 0;              ///< over all detections
-  std::size_t keypoints = 0;          ///< over all frames, before the filter
-  std::size_t removed_keypoints = 0;  ///< of them: on people
+  /// A detection was given up and has not come back: System's destructor would wait for it, however long.
+  bool detector_stuck = false;
+  std::size_t boxes = 0;                 ///< over all detections
+  std::size_t keypoints = 0;             ///< over all frames, before the filter
+  std::size_t removed_keypoints = 0;     ///< of them: on people
   std::size_t reinstated_keypoints = 0;  ///< on people who do not move: not removed
   std::size_t extended_frames = 0;       ///< frames that got a second extraction outside the people
   double mean_boxes_age_s = 0.0;  ///< of the newest boxes, over the frames that had any; in frame stamps

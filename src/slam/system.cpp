@@ -6,6 +6,7 @@
 #include <shared_mutex>
 
 #include "cpslam/error.h"
+#include "detect/people.h"
 #include "features/image_check.h"
 #include "slam/frame_input.h"
 #include "slam/local_mapping.h"
@@ -27,11 +28,12 @@ Settings checked(const Settings& settings) {
 
 class System::Impl {
  public:
-  Impl(const Settings& settings, LogSink log)
+  Impl(const Settings& settings, std::unique_ptr<PersonDetector> detector, LogSink log)
       : log_(std::move(log)),
         rig_(checked(settings)),
         map_(rig_.pyramid),
         features_(rig_.settings.camera, rig_.settings.orb),
+        people_(rig_.settings, std::move(detector), timer_, log_),
         mapping_(rig_, map_, timer_),
         tracking_(rig_, map_, timer_, log_) {
     if (rig_.settings.sequential) return;
@@ -50,20 +52,20 @@ class System::Impl {
     if (mapper_) mapper_->stop(OnStop::kDrop);
   }
 
-  TrackResult track(const cv::Mat& colour, const cv::Mat& depth, double time_s, double depth_time_s) {
-    check_input(colour, depth, time_s, depth_time_s);
+  TrackResult track(const RgbdFrame& frame) {
+    const double depth_time_s = frame.depth_time_s.value_or(frame.time_s);
+    check_input(frame, depth_time_s);
     let_mapper_catch_up();
-    if (!last_time_s_) warn_about_depth_scale(depth, rig_.settings.camera.depth_map_factor, log_);
-    last_time_s_ = time_s;
+    if (!last_time_s_) warn_about_depth_scale(frame.depth, rig_.settings.camera.depth_map_factor, log_);
+    const double interval_s = frame.time_s - last_time_s_.value_or(frame.time_s);
+    last_time_s_ = frame.time_s;
     TrackResult result;
     {
       const auto scope = timer_.time("track");
-      std::shared_ptr<const FrameFeatures> features;
-      {
-        const auto extraction = timer_.time("track: features");
-        features = features_.build(to_grey(colour), depth, tracking_.expected_motion(depth_time_s - time_s));
-      }
-      result = tracking_.track(time_s, std::move(features), mapper_load());
+      people_.begin(frame, tracking_.expected_motion(interval_s));
+      std::shared_ptr<const FrameFeatures> features = static_features(frame, depth_time_s - frame.time_s);
+      result = tracking_.track(frame.time_s, std::move(features), mapper_load());
+      people_.end(tracking_.expected_motion(interval_s));
     }
     count(result.state);
     // After the clock has stopped: mapping in this thread, or waiting for the mapper, is not tracking.
@@ -74,6 +76,7 @@ class System::Impl {
   void shutdown() {
     if (finished_) return;
     finished_ = true;
+    people_.finish();
     if (!mapper_) return;
     mapper_->stop(OnStop::kDrain);
     mapper_->rethrow_if_failed();
@@ -82,9 +85,18 @@ class System::Impl {
   [[nodiscard]] Trajectory trajectory() const { return tracking_.trajectory(); }
   [[nodiscard]] Trajectory keyframe_trajectory() const { return keyframe_poses(map_); }
 
+  [[nodiscard]] FrameView frame_view() const {
+    FrameView view;
+    view.time_s = last_time_s_.value_or(0.0);
+    if (candidates_ != nullptr) show_keypoints(view);
+    people_.show(view);
+    return view;
+  }
+
   [[nodiscard]] Statistics statistics() const {
     Statistics statistics = counts_;
     statistics.local_bundle_adjustments = mapping_.bundle_adjustments();
+    statistics.people = people_.statistics();
     statistics.stages = timer_.summary();
     const std::shared_lock lock(map_.mutex());
     statistics.keyframes = map_.n_keyframes();
@@ -95,14 +107,46 @@ class System::Impl {
   }
 
  private:
-  void check_input(const cv::Mat& colour, const cv::Mat& depth, double time_s, double depth_time_s) const {
+  void check_input(const RgbdFrame& frame, double depth_time_s) const {
     if (finished_) throw RunError("track() was called after shutdown()");
-    check_images(colour, depth, {rig_.camera.width(), rig_.camera.height()});
+    check_images(frame.colour, frame.depth, {rig_.camera.width(), rig_.camera.height()});
+    people_.check(frame);
+    const double time_s = frame.time_s;
     if (!std::isfinite(time_s) || !std::isfinite(depth_time_s))
       throw InputError("the frame's time stamp is not a finite number");
     if (last_time_s_ && time_s <= *last_time_s_) {
       throw InputError("the frame's time stamp " + std::to_string(time_s) +
                        " does not come after the last one's " + std::to_string(*last_time_s_));
+    }
+  }
+
+  /// The features of the frame that are not on people.
+  std::shared_ptr<const FrameFeatures> static_features(const RgbdFrame& frame, double depth_delay_s) {
+    {
+      const auto scope = timer_.time("track: features");
+      candidates_ = &features_.extract(to_grey(frame.colour), frame.depth,
+                                       tracking_.expected_motion(depth_delay_s), people_.prior());
+    }
+    kept_ = people_.filter(*candidates_);
+    if (const int missing = people_.missing_keypoints(kept_); missing > 0) {
+      features_.extend(*candidates_, people_.excluded(), missing);
+      kept_ = people_.filter(*candidates_);
+    }
+    return features_.finish(*candidates_, kept_);
+  }
+
+  void show_keypoints(FrameView& view) const {
+    const std::vector<bool> tracked = tracking_.tracked_keypoints();
+    std::size_t n_kept = 0;
+    for (std::size_t i = 0; i < kept_.size(); ++i) {
+      const OrbKeypoint& k = candidates_->orb.keypoints[i];
+      FrameView::Kind kind = FrameView::Kind::kRemoved;
+      if (kept_[i] != 0) {
+        const bool holds_point = n_kept < tracked.size() && tracked[n_kept];
+        kind = holds_point ? FrameView::Kind::kTracked : FrameView::Kind::kKept;
+        ++n_kept;
+      }
+      view.keypoints.push_back({k.x, k.y, kind});
     }
   }
 
@@ -157,6 +201,7 @@ class System::Impl {
   StageTimer timer_;
   Map map_;
   FrameFeaturesBuilder features_;
+  People people_;
   LocalMapping mapping_;
   Tracking tracking_;
   std::atomic<bool> abort_ = false;
@@ -164,17 +209,27 @@ class System::Impl {
   Statistics counts_;
   std::optional<double> last_time_s_;
   std::size_t frames_since_keyframe_ = 0;
+  KeypointCandidates* candidates_ = nullptr;  // of the last frame; features_ owns them
+  std::vector<std::uint8_t> kept_;            // parallel to them
   bool finished_ = false;
 };
 
 System::System(const Settings& settings, LogSink log)
-    : impl_(std::make_unique<Impl>(settings, std::move(log))) {}
+    : System(settings, make_detector(settings.detector, log), log) {}
+System::System(const Settings& settings, std::unique_ptr<PersonDetector> detector, LogSink log)
+    : impl_(std::make_unique<Impl>(settings, std::move(detector), std::move(log))) {}
 System::~System() = default;
 TrackResult System::track(const cv::Mat& colour, const cv::Mat& depth, double time_s) {
-  return impl_->track(colour, depth, time_s, time_s);
+  return impl_->track({colour, depth, time_s, {}, {}, {}});
 }
 TrackResult System::track(const cv::Mat& colour, const cv::Mat& depth, double time_s, double depth_time_s) {
-  return impl_->track(colour, depth, time_s, depth_time_s);
+  return impl_->track({colour, depth, time_s, depth_time_s, {}, {}});
+}
+TrackResult System::track(const RgbdFrame& frame) {
+  return impl_->track(frame);
+}
+FrameView System::frame_view() const {
+  return impl_->frame_view();
 }
 void System::shutdown() {
   impl_->shutdown();

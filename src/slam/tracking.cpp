@@ -158,6 +158,13 @@ void Tracking::finish_untracked(const Frame& frame, TrackResult& result) {
   if (predictable) result.world_from_camera = to_pose(predicted_pose(frame.time_s).inverse());
 }
 
+std::vector<bool> Tracking::tracked_keypoints() const {
+  std::vector<bool> tracked;
+  if (state_ != TrackingState::kTracked) return tracked;
+  for (const PointMatch& match : last_.matches) tracked.push_back(match.kind == PointMatch::Kind::kMapPoint);
+  return tracked;
+}
+
 SE3 Tracking::predicted_pose(double time_s) const {
   return expected_motion(time_s - last_.time_s) * last_.cam_from_world;
 }

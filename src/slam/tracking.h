@@ -30,6 +30,10 @@ class Tracking {
   /// negative): identity while its velocity is unknown.
   [[nodiscard]] SE3 expected_motion(double dt_s) const;
 
+  /// Of each keypoint of the last frame with a pose: whether it holds a map point. Empty when the latest
+  /// frame got none.
+  [[nodiscard]] std::vector<bool> tracked_keypoints() const;
+
   [[nodiscard]] Trajectory trajectory() const { return trajectory_.resolve(map_); }
 
  private:

@@ -1,0 +1,27 @@
+#include "common/output_folder.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include "cpslam/error.h"
+
+namespace cpslam::program {
+
+namespace fs = std::filesystem;
+
+void prepare_output_folder(const std::string& option, const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  const fs::path probe = fs::path(folder) / ".cpslam_probe";
+  const bool writable = !error && fs::is_directory(folder) && std::ofstream(probe).put('\n').good();
+  fs::remove(probe, error);
+  if (!writable) throw InputError(option + " " + folder + ": cannot write there");
+}
+
+void check_folder_of(const std::string& option, const std::string& file) {
+  const fs::path folder = fs::absolute(file).parent_path();
+  if (!fs::is_directory(folder)) throw InputError(option + " " + file + ": there is no such folder");
+  if (fs::is_directory(file)) throw InputError(option + " " + file + ": is a folder, not a file");
+}
+
+}  // namespace cpslam::program

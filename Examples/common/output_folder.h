@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+namespace cpslam::program {
+
+/// Makes a folder for results when it is missing, and refuses early what would only fail when they are
+/// written: throws InputError naming the option and the folder.
+void prepare_output_folder(const std::string& option, const std::string& folder);
+
+/// Throws InputError naming the option when a file cannot be made there for want of its folder.
+void check_folder_of(const std::string& option, const std::string& file);
+
+}  // namespace cpslam::program

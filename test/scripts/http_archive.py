@@ -18,7 +18,7 @@ class Server:
         self.statuses = []  # of the next answers: a status instead of the file
         self.resumes = True  # understands Range
         self.tag = '"one"'  # ETag, which If-Range is compared with
-        self.wrong_total = 0  # added to Content-Length
+        self.wrong_total = 0  # added to the size in Content-Range
         self.requests = []  # (path, Range header or None)
         self.url = None
 
@@ -43,10 +43,10 @@ def serve():
                 begin = int(re.fullmatch(r"bytes=(\d+)-", wanted).group(1))
             self.send_response(206 if begin else 200)
             if begin:
-                self.send_header("Content-Range", f"bytes {begin}-{len(data) - 1}/{len(data)}")
+                self.send_header("Content-Range", f"bytes {begin}-{len(data) - 1}/{len(data) + server.wrong_total}")
             if server.tag:
                 self.send_header("ETag", server.tag)
-            self.send_header("Content-Length", str(len(data) - begin + server.wrong_total))
+            self.send_header("Content-Length", str(len(data) - begin))
             self.end_headers()
             end = server.break_after.pop(0) if server.break_after else len(data)
             self.wfile.write(data[begin:begin + end])

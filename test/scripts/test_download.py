@@ -5,7 +5,9 @@ import io
 import os
 import random
 import shutil
+import stat
 import tarfile
+import zipfile
 
 import pytest
 from cpslam_tools import datasets, errors
@@ -128,6 +130,13 @@ def test_a_part_that_is_all_needs_no_server(server, fetch, tmp_path):
     assert fetch() == DATA and server.requests == []
 
 
+def test_more_bytes_than_the_server_has_are_thrown_away(server, fetch, tmp_path):
+    server.break_after, server.wrong_total = [30_000], -10
+    with pytest.raises(DownloadError, match="100000 bytes came where the server said 99990"):
+        fetch(retries=1)
+    assert "file.bin.part" not in names(tmp_path)
+
+
 def test_a_busy_server_is_asked_again_and_an_absent_file_is_not(server, fetch):
     server.statuses = [503, 503]
     assert fetch(retries=3) == DATA
@@ -195,6 +204,15 @@ def test_links_and_devices_are_refused(tmp_path, kind):
         archive.unpack(str(path), str(tmp_path / "folder"))
 
 
+def test_a_link_in_a_zip_is_refused(tmp_path):
+    member = zipfile.ZipInfo("link")
+    member.external_attr = (stat.S_IFLNK | 0o777) << 16
+    with zipfile.ZipFile(tmp_path / "bad.zip", "w") as bad:
+        bad.writestr(member, "/etc/passwd")
+    with pytest.raises(DownloadError, match="'link' is neither file nor folder"):
+        archive.unpack(str(tmp_path / "bad.zip"), str(tmp_path / "folder"))
+
+
 def test_unpacked_files_are_never_executable(tmp_path):
     path = tmp_path / "a.tgz"
     path.write_bytes(tgz({"run.sh": "x"}, lambda member: setattr(member, "mode", 0o4777)))
@@ -203,7 +221,7 @@ def test_unpacked_files_are_never_executable(tmp_path):
 
 
 @pytest.mark.parametrize("spoil", [lambda data: data[:len(data) // 2], lambda data: b"<html>sorry</html>",
-                                   lambda data: data[:-20] + bytes(20)])
+                                   lambda data: data[:-20] + bytes(20), lambda data: data[:-8] + bytes(8)])
 def test_a_damaged_archive_leaves_no_folder(run_script, server, tmp_path, spoil):
     server.files[WALKING_PATH] = spoil(tgz(CONTENT))
     result = run_script("download_sequence.py", WALKING, "--into", tmp_path, "--mirror", server.url)

@@ -78,6 +78,9 @@ class _Tar:
                 raise DownloadError(f"{self.path}: refused, '{member.name[:100]}' is neither file nor folder; "
                                     "nothing was unpacked")
             yield member.name, member.size, member if member.isreg() else None
+        # tarfile stops at the archive's end mark; the checksum of the compressed whole comes after it.
+        while self.tar.fileobj.read(1 << 20):
+            pass
 
     def open(self, record):
         return self.tar.extractfile(record)

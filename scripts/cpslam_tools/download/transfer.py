@@ -114,7 +114,8 @@ def _check_space(part, total, have):
     folder = os.path.dirname(os.path.abspath(part))
     free = shutil.disk_usage(folder).free
     if total is not None and total - have > free:
-        raise DownloadError(f"not enough space in {folder}: {megabytes(total - have)} are to come, {megabytes(free)} free")
+        raise DownloadError(f"not enough space in {folder}: {megabytes(total - have)} are to come, "
+                            f"{megabytes(free)} free")
 
 
 def _write_origin(part, url, response, total):

@@ -43,6 +43,7 @@ with open(os.path.join(output, "CameraTrajectory.txt"), "w") as file:
 statistics = {"version": "0", "frames": len(rows), "tracked": len(rows) - (0 if has("all_tracked") else 1),
               "keyframes": min(len(rows), 40), "map_points": 100, "peak_memory_mb": 200.0, "wall_s": 1.5,
               "tracking_ms": {"p50": 20.0, "p95": 30.0, "max": 40.0}, "boxes_read": boxes,
+              "people": {"removed_ratio": 0.25, "boxes_age_s": {"mean": 0.125}} if boxes else None,
               "settings_read": os.path.basename(settings), "seed": "not the run's",
               "stages": [{"stage": "extract", "count": len(rows), "p50_ms": 9.0, "p95_ms": 12.0, "max_ms": 15.0}]}
 with open(os.path.join(output, "stats.json"), "w") as file:

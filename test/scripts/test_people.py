@@ -56,15 +56,15 @@ def test_late_boxes_are_compared_with_boxes_at_once(benchmark, clips):
     assert runs[2]["arguments"].endswith("--boxes-policy latest --boxes-rate 3 --boxes-delay 0.3 --start 0")
     # The fake is worse by as many times the error as the delay has seconds.
     rows = [cells(result.stdout, name) for name in crowd.LATE]
-    assert [row[8] for row in rows] == ["1.15 (1.15-1.15)", "1.30 (1.30-1.30)", "1.50 (1.50-1.50)"]
-    assert [row[9:11] for row in rows] == [["<= 1.2", "yes"], ["<= 1.4", "yes"], ["<= 2.0", "yes"]]
-    assert cells(result.stdout, "wait")[8:11] == ["-", "-", "-"]
+    assert [row[10] for row in rows] == ["1.15 (1.15-1.15)", "1.30 (1.30-1.30)", "1.50 (1.50-1.50)"]
+    assert [row[11:13] for row in rows] == [["<= 1.2", "yes"], ["<= 1.4", "yes"], ["<= 2.0", "yes"]]
+    assert cells(result.stdout, "wait")[8:13] == ["0.250 (0.250-0.250)", "0.125 (0.125-0.125)"] + ["-", "-", "-"]
 
 
 def test_a_late_run_that_loses_frames_does_not_reach_the_aim(benchmark, clips):
     (clips / "bonn_crowd_dev" / "all_tracked").unlink()
     result, _ = benchmark("--trials", "people_latest", "--data", clips)
-    assert cells(result.stdout, "6/s, 150 ms late")[10] == "NO"
+    assert cells(result.stdout, "6/s, 150 ms late")[12] == "NO"
 
 
 def test_every_filter_is_tried(benchmark, clips):
@@ -77,6 +77,26 @@ def test_every_filter_is_tried(benchmark, clips):
     errors_m = {name: float(cells(result.stdout, name, "3")[3].split()[0]) for name in arguments}
     assert errors_m["whole boxes deleted"] == pytest.approx(2 * errors_m["ours"], rel=0.01)
     assert errors_m["the paper's filter"] == pytest.approx(1.5 * errors_m["ours"], rel=0.01)
+
+
+def test_a_filter_or_delay_without_effect_is_told():
+    base = {"mode": "sequential", "error": None, "ate": {"rmse_m": 0.5}, "frames": 60, "tracked": 60}
+
+    def runs(*variants):
+        return [{**base, "variant": name, "start": start, "trajectory_sha256": f"{text} {start}"}
+                for start in (0, 1) for name, text in variants]
+
+    text = crowd.ablation_table(runs(("no filter", "a"), ("ours", "a"), ("the paper's filter", "b")))
+    assert cells(text, "ours")[-1] == "same trajectory as 'no filter' in 2 runs"
+    assert cells(text, "no filter")[-1] == cells(text, "the paper's filter")[-1] == ""
+    text = crowd.latest_table(runs(("wait", "a"), ("3/s, 300 ms late", "a")))
+    assert cells(text, "3/s, 300 ms late")[-1] == "same trajectory as 'wait' in 2 runs"
+
+
+def test_boxes_without_effect_are_told():
+    text = pair_table.render("t", [{**run, "trajectory_sha256": "x"} for run in pairs(1.0, 1.0)], "preset")
+    assert cells(text, "a")[-1] == "boxes without effect in 2 pairs"
+    assert cells(pair_table.render("t", pairs(1.0, 1.0), "preset"), "a")[-1] == ""
 
 
 def test_an_absent_clip_is_one_failed_row(benchmark, tmp_path):

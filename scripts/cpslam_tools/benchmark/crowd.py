@@ -6,7 +6,7 @@ from ..output import markdown_table
 from . import detectors, tables
 from .execution import on_sequence, run_on
 from .figures import Figures
-from .paired import paired_ratios
+from .paired import identical, paired_ratios
 from .sequences import recorded_sequence
 
 CLIP = "bonn_crowd_dev"
@@ -108,11 +108,12 @@ def latest_table(runs):
                 "yes" if reached else "NO"]
 
     return "### Crowd, boxes seldom and late (bonn_crowd_dev, sequential)\n\n" + \
-        _table(runs, "variant", ["ATE x wait", "aim", "reached"], columns) + _starts()
+        _table(runs, "variant", ["ATE x wait", "aim", "reached"], columns, "wait") + _starts()
 
 
 def ablation_table(runs):
-    return "### Crowd, kinds of filter (bonn_crowd_dev, sequential)\n\n" + _table(runs, "variant") + _starts()
+    return "### Crowd, kinds of filter (bonn_crowd_dev, sequential)\n\n" + \
+        _table(runs, "variant", reference=next(iter(ABLATION))) + _starts()
 
 
 def _starts():
@@ -123,15 +124,23 @@ def _complete(group):
     return all(not run["error"] and run.get("tracked") == run.get("frames") for run in group)
 
 
-def _table(runs, key, more=(), columns=lambda name, group: []):
-    header = [key, "runs", "tracked (worst)", "ATE RMSE m", "ATE mean m", "ATE max m", "RPE 1 s m", "RPE 1 s deg", *more,
-              "notes"]
+def _table(runs, key, more=(), columns=lambda name, group: [], reference=None):
+    """reference: the variant that the others must differ from, else what they ask for had no effect."""
+    header = [key, "runs", "tracked (worst)", "ATE RMSE m", "ATE mean m", "ATE max m", "RPE 1 s m", "RPE 1 s deg",
+              "keypoints removed", "boxes' age s", *more, "notes"]
     rows = []
     for (name,), group in tables.grouped(runs, key).items():
         good = [run for run in group if not run["error"]]
         rows.append([name, len(group), tables.tracked_cell(good), tables.spread(good, "ate", "rmse_m"),
                      tables.spread(good, "ate", "mean_m"), tables.spread(good, "ate", "max_m"),
                      tables.spread(good, "rpe", "translation", "rmse_m"),
-                     tables.spread(good, "rpe", "rotation", "rmse_deg", digits=3), *columns(name, group),
-                     tables.notes("threaded", group)])
+                     tables.spread(good, "rpe", "rotation", "rmse_deg", digits=3),
+                     tables.spread(good, "people", "removed_ratio", digits=3),
+                     tables.spread(good, "people", "boxes_age_s", "mean", digits=3), *columns(name, group),
+                     tables.joined(_identical(runs, name, reference), tables.notes("threaded", group))])
     return markdown_table(header, rows)
+
+
+def _identical(runs, name, reference):
+    count = identical(runs, ("start",), name, reference) if reference not in (None, name) else 0
+    return f"same trajectory as '{reference}' in {count} runs" if count else ""

@@ -2,7 +2,7 @@
 
 from ..output import markdown_table
 from . import tables
-from .paired import bootstrap_upper_bound, geometric_mean, paired_ratios
+from .paired import bootstrap_upper_bound, geometric_mean, identical, paired_ratios
 
 WITH = "with boxes"
 WITHOUT = "without"
@@ -25,7 +25,7 @@ def render(title, runs, key, all_tracked=False):
         groups.append(known)
         rows.append([name, f"{len(known)}/{len(ratios)}", *map(tables.tracked_cell, sides),
                      *(tables.spread(side, "ate", "rmse_m") for side in sides), _number(geometric_mean, known),
-                     _number(max, known), tables.notes("threaded", group)])
+                     _number(max, known), tables.joined(_identical(group), tables.notes("threaded", group))])
     text = f"### {title} (sequential)\n\n" + markdown_table(header, rows)
     if not any(groups):
         return text + "\n\nNo pair of runs to compare."
@@ -37,6 +37,11 @@ def render(title, runs, key, all_tracked=False):
     return text + (f"\n\nGeometric mean of the ratios {geometric_mean(everything):.3f} over {len(everything)} pairs, "
                    f"95 % upper bound {bound:.3f} (aim <= {AIM:.2f}, {frames} tracked): "
                    f"{'reached' if reached else 'NOT reached'}.")
+
+
+def _identical(group):
+    count = identical(group, ("perturbation",), WITH, WITHOUT)
+    return f"boxes without effect in {count} pairs" if count else ""
 
 
 def _lost(runs, key, wanted):

@@ -15,6 +15,15 @@ def paired_ratios(runs, pair_keys, variant, reference):
     return {pair: _ratio(of.get(variant), of.get(reference)) for pair, of in errors.items()}
 
 
+def identical(runs, pair_keys, variant, reference):
+    """How many pairs have the same trajectory to the bit: what tells variant and reference apart had no effect."""
+    hashes = {}
+    for run in runs:
+        if not run["error"] and run.get("trajectory_sha256"):
+            hashes.setdefault(tuple(run[key] for key in pair_keys), {})[run.get("variant")] = run["trajectory_sha256"]
+    return sum(of[variant] == of[reference] for of in hashes.values() if {variant, reference} <= set(of))
+
+
 def _ratio(value, reference):
     return value / reference if value and reference else None
 

@@ -66,6 +66,10 @@ def notes(mode, group):
     return "; ".join(remarks)
 
 
+def joined(*remarks):
+    return "; ".join(remark for remark in remarks if remark)
+
+
 def stages(runs):
     header = ["sequence", "mode", "stage", "calls", "p50 ms", "p95 ms", "max ms"]
     rows = []

@@ -90,12 +90,12 @@ def test_a_filter_or_delay_without_effect_is_told():
     assert cells(text, "ours")[-1] == "same trajectory as 'no filter' in 2 runs"
     assert cells(text, "no filter")[-1] == cells(text, "the paper's filter")[-1] == ""
     text = crowd.latest_table(runs(("wait", "a"), ("3/s, 300 ms late", "a")))
-    assert cells(text, "3/s, 300 ms late")[-1] == "same trajectory as 'wait' in 2 runs"
+    assert cells(text, "3/s, 300 ms late")[-2:] == ["not measured", "same trajectory as 'wait' in 2 runs"]
 
 
 def test_boxes_without_effect_are_told():
     text = pair_table.render("t", [{**run, "trajectory_sha256": "x"} for run in pairs(1.0, 1.0)], "preset")
-    assert cells(text, "a")[-1] == "boxes without effect in 2 pairs"
+    assert cells(text, "a")[-1] == "boxes without effect in 2 pairs" and "NOT measured" in text and "reached" not in text
     assert cells(pair_table.render("t", pairs(1.0, 1.0), "preset"), "a")[-1] == ""
 
 

@@ -103,9 +103,10 @@ def latest_table(runs):
         ratios = list(paired_ratios(runs, ("start",), name, "wait").values())
         if aim is None or not ratios or None in ratios:
             return ["-", "-" if aim is None else f"<= {aim}", "-" if aim is None else "NO"]
-        reached = _complete(group) and statistics.median(ratios) <= aim
-        return [f"{statistics.median(ratios):.2f} ({min(ratios):.2f}-{max(ratios):.2f})", f"<= {aim}",
-                "yes" if reached else "NO"]
+        reached = "yes" if _complete(group) and statistics.median(ratios) <= aim else "NO"
+        if identical(runs, ("start",), name, "wait") == len(ratios):
+            reached = "not measured"
+        return [f"{statistics.median(ratios):.2f} ({min(ratios):.2f}-{max(ratios):.2f})", f"<= {aim}", reached]
 
     return "### Crowd, boxes seldom and late (bonn_crowd_dev, sequential)\n\n" + \
         _table(runs, "variant", ["ATE x wait", "aim", "reached"], columns, "wait") + _starts()

@@ -30,6 +30,8 @@ def render(title, runs, key, all_tracked=False):
     if not any(groups):
         return text + "\n\nNo pair of runs to compare."
     lost = _lost(runs, key, "frames" if all_tracked else "tracked")
+    if identical(runs, (key, "perturbation"), WITH, WITHOUT) == sum(map(len, groups)):
+        return text + "\n\nNOT measured: the boxes changed nothing in any pair."
     bound = bootstrap_upper_bound(groups)
     everything = [ratio for group in groups for ratio in group]
     reached = bound <= AIM and complete and not lost

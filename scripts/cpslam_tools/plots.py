@@ -59,16 +59,47 @@ def plot_absolute(path, truth, estimate, result):
     save_figure(figure, path)
 
 
-def plot_relative(path, result):
+def plot_relative(path, result, title=""):
     """Translation and rotation error over the time at which each motion starts."""
     figure = new_figure(8, 5)
-    seconds = result.rows[:, 0] - result.rows[0, 0]
+    stamps, errors = with_gaps(result.rows[:, 0] - result.rows[0, 0], result.rows[:, 4:6])
     translation, rotation = figure.subplots(2, 1, sharex=True)
-    translation.plot(seconds, result.rows[:, 4], ".-", color="tab:blue", linewidth=0.8, markersize=3)
+    translation.plot(stamps, errors[:, 0], ".-", color="tab:blue", linewidth=0.8, markersize=3)
     translation.set_ylabel("translation error [m]")
-    rotation.plot(seconds, np.degrees(result.rows[:, 5]), ".-", color="tab:red", linewidth=0.8, markersize=3)
+    translation.set_title(f"RMSE {result.translation['rmse']:.4f} m, {result.rotation_deg['rmse']:.3f} deg")
+    rotation.plot(stamps, np.degrees(errors[:, 1]), ".-", color="tab:red", linewidth=0.8, markersize=3)
     rotation.set_ylabel("rotation error [deg]")
     rotation.set_xlabel("time [s]")
+    if title:
+        figure.suptitle(title)
+    save_figure(figure, path)
+
+
+def plot_trajectory(path, truth, estimate, result, title=""):
+    """The floor plan, and each axis over time, of the truth and the aligned estimate."""
+    figure = new_figure(12, 6)
+    grid = figure.add_gridspec(3, 2)
+    top = figure.add_subplot(grid[:, 0])
+    first, second, _ = horizontal_axes(truth.positions)
+    begin = estimate.stamps[0]
+    lines = ((truth.stamps, truth.positions, "black", "ground truth"),
+             (estimate.stamps, result.aligned, "tab:blue", f"estimated, ATE RMSE {result.statistics['rmse']:.4f} m"))
+    for stamps, positions, colour, label in lines:
+        draw_path(top, stamps, positions, first, second, colour, label)
+    top.legend()
+    top.set_title("top view")
+    axes = [figure.add_subplot(grid[axis, 1]) for axis in range(3)]
+    for axis, of_axis in enumerate(axes):
+        for stamps, positions, colour, _ in lines:
+            seconds, values = with_gaps(stamps - begin, positions[:, axis:axis + 1])
+            of_axis.plot(seconds, values[:, 0], color=colour, linewidth=1.0)
+        of_axis.set_ylabel(f"{'xyz'[axis]} [m]")
+        of_axis.grid(alpha=0.3)
+        # The truth often begins before the images and ends after.
+        of_axis.set_xlim(0, estimate.stamps[-1] - begin)
+    axes[-1].set_xlabel("time [s]")
+    if title:
+        figure.suptitle(title)
     save_figure(figure, path)
 
 

@@ -1,3 +1,4 @@
+import json
 import os
 import subprocess
 import sys
@@ -26,3 +27,26 @@ def write(tmp_path):
         path.write_text("".join(f"{line}\n" for line in lines))
         return path
     return write_lines
+
+
+@pytest.fixture
+def benchmark(run_script, tmp_path):
+    """Runs benchmark.py around the fakes; returns the process and the JSON it wrote, None without."""
+    from fakes import build_folder
+
+    def run(*arguments):
+        build = build_folder(tmp_path)
+        result = run_script("benchmark.py", "--build-dir", build, "--work-dir", tmp_path / "work", "--json",
+                            tmp_path / "results.json", *arguments)
+        path = tmp_path / "results.json"
+        return result, json.loads(path.read_text()) if path.exists() else None
+    return run
+
+
+def cells(markdown, *first):
+    """The cells of the table row that starts with these."""
+    for line in markdown.splitlines():
+        row = [cell.strip() for cell in line.strip().strip("|").split("|")]
+        if row[:len(first)] == list(first):
+            return row
+    raise AssertionError(f"no row {first} in\n{markdown}")

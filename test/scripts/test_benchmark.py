@@ -7,29 +7,9 @@ import subprocess
 import time
 
 import pytest
-from conftest import SCRIPTS
+from conftest import SCRIPTS, cells
 from cpslam_tools.benchmark import sequences, tables, trials
 from fakes import BENCHMARK, build_folder, install, sequence_folder
-
-
-@pytest.fixture
-def benchmark(run_script, tmp_path):
-    def run(*arguments):
-        build = build_folder(tmp_path)
-        result = run_script("benchmark.py", "--build-dir", build, "--work-dir", tmp_path / "work", "--json",
-                            tmp_path / "results.json", *arguments)
-        path = tmp_path / "results.json"
-        return result, json.loads(path.read_text()) if path.exists() else None
-    return run
-
-
-def cells(markdown, first, second):
-    """The cells of the table row that starts with these two."""
-    for line in markdown.splitlines():
-        row = [cell.strip() for cell in line.strip().strip("|").split("|")]
-        if row[:2] == [first, second]:
-            return row
-    raise AssertionError(f"no row {first} | {second} in\n{markdown}")
 
 
 def test_runs_every_mode_as_often_as_asked(benchmark, tmp_path):
@@ -113,8 +93,14 @@ def test_full_adds_the_long_trials(benchmark, tmp_path):
         build_folder(tmp_path, preset)
     install(tmp_path / "build" / "release" / "bin" / "bench_features", BENCHMARK)
     result, document = benchmark("--sequence", folder, folder / "settings.yaml", "--modes", "threaded", "--repeats", "1",
-                                 "--full", "--no-build", "--presets", "room", "--frames", "30", "--seeds", "2")
-    assert result.returncode == 0, result.stderr
+                                 "--full", "--no-build", "--presets", "room", "--frames", "30", "--seeds", "2",
+                                 "--data", tmp_path / "no_clips", "--datasets", tmp_path / "no_datasets",
+                                 "--people-presets", "walking_xyz", "sitting_xyz", "--perturbations", "2")
+    # Everything is well but for the recorded clips, which are told to be missing.
+    assert result.returncode == 1, result.stderr
+    failed = {name for name, runs in document.items() if isinstance(runs, list) and any(run["error"] for run in runs)}
+    assert failed == {"people_wait", "people_latest", "people_ablation", "people_false_boxes"}
+    assert "bonn_crowd_dev: not there" in cells(result.stdout, "-", "1")[-1]
     # One frame of each run is not tracked, so the target is not reached.
     row = cells(result.stdout, "room", "noise")
     assert row[2:4] == ["2", "29/30"] and row[6] == "NO"

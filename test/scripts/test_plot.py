@@ -2,7 +2,10 @@
 
 import numpy as np
 import pytest
+from cpslam_tools import plots
+from cpslam_tools.absolute_error import absolute_error
 from cpslam_tools.plots import horizontal_axes, with_gaps
+from cpslam_tools.trajectory import Trajectory
 
 
 def walk(scale=1.0, skip=range(0)):
@@ -31,6 +34,24 @@ def test_labels_must_fit(run_script, write, tmp_path):
     truth = write("truth.txt", walk())
     result = run_script("plot_trajectory.py", truth, truth, "--labels", "a", "b", "-o", tmp_path / "p.png")
     assert result.returncode == 2 and "2 labels for 1 estimates" in result.stderr
+
+
+def test_every_axis_is_drawn_over_time_beside_the_truth(monkeypatch):
+    saved = []
+    monkeypatch.setattr(plots, "save_figure", lambda figure, path: saved.append(figure))
+    stamps = np.arange(10.0, 20.0)
+    positions = np.stack([stamps, stamps**2, np.sin(stamps)], axis=1)
+    truth = Trajectory(stamps, positions)
+    estimate = Trajectory(stamps[2:], positions[2:] + [5.0, 0.0, 0.0])
+    plots.plot_trajectory("p.png", truth, estimate, absolute_error(truth, estimate))
+    top, *axes = saved[0].axes
+    assert [line.get_label() for line in top.lines] == ["ground truth", "estimated, ATE RMSE 0.0000 m"]
+    assert len(axes) == 3
+    for axis, of_axis in enumerate(axes):
+        true_line, estimated_line = of_axis.lines
+        assert np.allclose(true_line.get_xydata(), np.stack([stamps - 12, positions[:, axis]], axis=1))
+        assert np.allclose(estimated_line.get_xydata(), np.stack([stamps[2:] - 12, positions[2:, axis]], axis=1))
+        assert of_axis.get_ylabel() == f"{'xyz'[axis]} [m]"
 
 
 def test_lines_are_not_drawn_across_holes():

@@ -4,16 +4,30 @@ import sys
 import time
 
 from .. import output
-from . import tables, trials
+from . import crowd, false_boxes, paper, paper_table, sitting, tables, trials, walking
 
-# name: (trial, table)
+# name: (trial, table, number of its results where that is known beforehand)
 TRIALS = {
-    "accuracy": (trials.accuracy, tables.accuracy),
-    "static_rooms": (trials.static_rooms, tables.static_rooms),
-    "plateau": (trials.plateau, tables.plateau),
-    "sanitizers": (trials.sanitizers, tables.sanitizers),
-    "speed": (trials.speed, tables.speed),
+    "accuracy": (trials.accuracy, tables.accuracy, trials.accuracy_count),
+    "paper": (paper.paper, paper_table.paper, paper.paper_count),
+    "people_wait": (crowd.wait, crowd.wait_table, crowd.wait_count),
+    "people_latest": (crowd.latest, crowd.latest_table, crowd.latest_count),
+    "people_ablation": (crowd.ablation, crowd.ablation_table, crowd.ablation_count),
+    "people_walking": (walking.walking, walking.table, walking.count),
+    "people_sitting": (sitting.sitting, sitting.table, sitting.count),
+    "people_false_boxes": (false_boxes.false_boxes, false_boxes.table, false_boxes.count),
+    "static_rooms": (trials.static_rooms, tables.static_rooms, None),
+    "plateau": (trials.plateau, tables.plateau, None),
+    "sanitizers": (trials.sanitizers, tables.sanitizers, None),
+    "speed": (trials.speed, tables.speed, None),
 }
+GROUPS = {"people": [name for name in TRIALS if name.startswith("people_")]}
+LABELS = ("program", "preset", "sequence", "mode", "rounds", "variant", "start", "perturbation")
+
+
+def expand(names):
+    """The names with groups replaced by their trials, each once."""
+    return list(dict.fromkeys(trial for name in names for trial in GROUPS.get(name, [name])))
 
 
 class Campaign:
@@ -39,7 +53,7 @@ class Campaign:
 
     def markdown(self):
         parts = [tables.machine(self.results["machine"])]
-        for name, (_, table) in TRIALS.items():
+        for name, (_, table, _) in TRIALS.items():
             if self.results.get(name):
                 parts.append(table(self.results[name]))
         if self.results.get("accuracy"):
@@ -47,9 +61,9 @@ class Campaign:
         return "\n\n".join(part for part in parts if part) + "\n"
 
     def _run_trial(self, name):
-        trial, _ = TRIALS[name]
+        trial, _, count = TRIALS[name]
         collected = self.results.setdefault(name, [])
-        total = trials.accuracy_count(self.plan) if name == "accuracy" else None
+        total = count(self.plan) if count else None
         begin = time.monotonic()
         for result in trial(self.plan):
             # The whole text is only of use while counting reports; a line of it stands in "error".
@@ -64,9 +78,11 @@ class Campaign:
 
     @staticmethod
     def _show(name, number, total, result, elapsed_s):
-        what = ", ".join(str(result[key]) for key in ("program", "preset", "sequence", "mode", "rounds") if key in result)
+        what = ", ".join(str(result[key]) for key in LABELS if key in result)
         if result["error"]:
             outcome = f"FAILED: {result['error']}"
+        elif "skipped" in result:
+            outcome = result["skipped"]
         else:
             outcome = f"tracked {tables.tracked_cell([result])}, ATE {tables.spread([result], 'ate', 'rmse_m')} m"
             if name == "speed":

@@ -12,23 +12,24 @@ from ..trajectory import read_trajectory
 from .programs import execute
 
 MODES = {"threaded": [], "sequential": ["--sequential"], "realtime": ["--realtime"]}
-KEPT_STATISTICS = ("version", "frames", "tracked", "predicted", "lost", "not_initialized", "unreadable", "keyframes",
-                   "keyframes_created", "map_points", "map_points_created", "local_bundle_adjustments", "stages",
-                   "tracking_ms", "peak_memory_mb", "wall_s")
+# Of stats.json: told by the run itself, or of no use in a table.
+LEFT_OUT = ("sequence", "mode", "seed", "settings", "ate", "rpe", "status", "error", "stderr", "arguments")
 
 
-def run_rgbd_tum(programs, sequence, mode, output_dir, seed=0, max_frames=None, timeout_s=1800, environment=None):
-    """Runs it and returns a JSON-ready dict. "error" is None or one line on what went wrong; the numbers that could
-    be had all the same are there. "stderr" is the program's."""
+def run_rgbd_tum(programs, sequence, mode, output_dir, seed=0, max_frames=None, timeout_s=1800, environment=None,
+                 arguments=()):
+    """Runs it, with further arguments when given, and returns a JSON-ready dict. "error" is None or one line on what
+    went wrong; the numbers that could be had all the same are there. "stderr" is the program's."""
     shutil.rmtree(output_dir, ignore_errors=True)
     os.makedirs(output_dir)
     command = [programs.path("rgbd_tum"), "-", sequence.settings, sequence.directory, "--output", output_dir, "--quiet",
-               "--seed", seed, *MODES[mode]]
+               "--seed", seed, *MODES[mode], *arguments]
     if max_frames:
         command += ["--max-frames", max_frames]
     finished = execute(command, timeout_s, environment)
     result = {"sequence": sequence.name, "mode": mode, "seed": seed, "status": finished.status,
-              "error": finished.error, "stderr": finished.stderr}
+              "arguments": " ".join(map(str, arguments)), "error": finished.error,
+              "stderr": finished.stderr}
     try:
         result.update(_statistics(os.path.join(output_dir, "stats.json")))
         result.update(_errors(sequence.truth, os.path.join(output_dir, "CameraTrajectory.txt")))
@@ -41,10 +42,10 @@ def _statistics(path):
     try:
         with open(path, encoding="utf-8") as file:
             document = json.load(file)
-        return {key: document[key] for key in KEPT_STATISTICS if key in document}
+        return {key: value for key, value in document.items() if key not in LEFT_OUT}
     except OSError as error:
         raise InputError(f"no statistics: {path}: {error.strerror}") from None
-    except (ValueError, TypeError):
+    except (ValueError, AttributeError):
         raise InputError(f"no statistics: {path} is not a JSON object") from None
 
 

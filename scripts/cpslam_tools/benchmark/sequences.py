@@ -6,6 +6,7 @@ import shutil
 
 from ..errors import InputError
 from ..trajectory import read_rows
+from .detectors import BOXES_FILE
 from .programs import execute
 
 # In the order of the README's table: (folder below the data directory, settings below Examples/RGB-D).
@@ -35,13 +36,23 @@ class Sequence:
     def truth(self):
         return os.path.join(self.directory, "groundtruth.txt")
 
+    @property
+    def boxes(self):
+        return os.path.join(self.directory, BOXES_FILE)
+
 
 class SimulatedSequence(Sequence):
-    """Rendered when it is needed and removed after, unless it is to be kept: a sequence takes some hundred MB."""
+    """Rendered when it is needed and removed after, unless it is to be kept: a sequence takes some hundred MB.
 
-    def __init__(self, programs, preset, work_dir, frames, seed=1, noise=True, keep=False):
-        label = f"sim {preset}, {'noise' if noise else 'clean'}, seed {seed}"
-        directory = os.path.join(work_dir, f"{preset}_{frames}_{'noise' if noise else 'clean'}_{seed}")
+    variation: further options of simulate_tum, {name: value}: people, start, noise-seed."""
+
+    def __init__(self, programs, preset, work_dir, frames, seed=1, noise=True, keep=False, variation=None):
+        self.variation = variation or {}
+        sensor = "noise" if noise else "clean"
+        details = "".join(f", {name} {value}" for name, value in self.variation.items())
+        label = f"sim {preset}, {sensor}, seed {seed}{details}"
+        folder = "_".join(map(str, (preset, frames, sensor, seed, *(f"{k}{v}" for k, v in self.variation.items()))))
+        directory = os.path.join(work_dir, folder)
         super().__init__(label, directory, os.path.join(directory, "settings.yaml"))
         self.programs = programs
         self.preset = preset
@@ -64,6 +75,8 @@ class SimulatedSequence(Sequence):
         os.makedirs(os.path.dirname(self.directory), exist_ok=True)
         command = [self.programs.path("simulate_tum"), self.preset, self.directory, "--frames", self.frames, "--seed",
                    self.seed, "--force", *(["--noise"] if self.noise else [])]
+        for name, value in self.variation.items():
+            command += [f"--{name}", value]
         finished = execute(command, SIMULATION_TIMEOUT_S)
         if finished.error:
             raise InputError(f"simulate_tum {self.preset}: {finished.error}")
@@ -116,11 +129,13 @@ def repeated(rows, begin, end, period, rounds):
             yield start + (stamp - begin if forwards else end - stamp), data
 
 
+def recorded_sequence(root, data_dir, folder):
+    """A known recorded clip, there or not."""
+    settings = dict(RECORDED)[folder]
+    return Sequence(folder, os.path.join(data_dir, folder), os.path.join(root, "Examples", "RGB-D", settings))
+
+
 def recorded_sequences(root, data_dir):
     """Those of the known recorded clips that are there."""
-    found = []
-    for folder, settings in RECORDED:
-        directory = os.path.join(data_dir, folder)
-        if os.path.isdir(directory):
-            found.append(Sequence(folder, directory, os.path.join(root, "Examples", "RGB-D", settings)))
-    return found
+    clips = [recorded_sequence(root, data_dir, folder) for folder, _ in RECORDED]
+    return [clip for clip in clips if os.path.isdir(clip.directory)]

@@ -42,7 +42,7 @@ def tracked_cell(runs):
 
 def accuracy(runs):
     header = ["sequence", "mode", "runs", "tracked (worst)", "ATE RMSE m", "RPE 1 s m", "RPE 1 s deg",
-              "tracking ms p50", "p95", "memory MB", "wall s", "notes"]
+              "tracking ms p50", "p95", "memory MB", "wall s", "detector", "notes"]
     rows = []
     for (sequence, mode), group in grouped(runs, "sequence", "mode").items():
         # A failed run has no say in the numbers: it is told of in the notes.
@@ -51,7 +51,7 @@ def accuracy(runs):
                      spread(good, "rpe", "translation", "rmse_m"),
                      spread(good, "rpe", "rotation", "rmse_deg", digits=3), spread(good, "tracking_ms", "p50", digits=1),
                      spread(good, "tracking_ms", "p95", digits=1), spread(good, "peak_memory_mb", digits=0),
-                     spread(good, "wall_s", digits=1), notes(mode, group)])
+                     spread(good, "wall_s", digits=1), group[0].get("detector", "-"), notes(mode, group)])
     return "### Accuracy\n\n" + markdown_table(header, rows)
 
 
@@ -64,6 +64,10 @@ def notes(mode, group):
     if mode == "sequential" and len(hashes) > 1:
         remarks.append("identical" if len(set(hashes)) == 1 else "NOT identical")
     return "; ".join(remarks)
+
+
+def joined(*remarks):
+    return "; ".join(remark for remark in remarks if remark)
 
 
 def stages(runs):

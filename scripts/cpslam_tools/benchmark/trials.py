@@ -5,7 +5,8 @@ import os
 import re
 import subprocess
 
-from ..errors import InputError
+from . import detectors
+from .execution import on_sequence, run_on
 from .programs import Programs, execute
 from .runs import run_rgbd_tum
 from .sequences import RepeatedSequence, SimulatedSequence
@@ -19,9 +20,10 @@ MILLISECONDS = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3}
 
 
 def accuracy(plan):
-    """Sequences x modes x repeats. Sequential runs are repeated once at most: they must be identical."""
+    """Sequences x modes x repeats, with recorded person boxes where there are some. Sequential runs are repeated
+    once at most: they must be identical."""
     for sequence in plan.sequences:
-        yield from _on(sequence, lambda ready: _modes(plan, ready))
+        yield from on_sequence(sequence, lambda ready: _modes(plan, ready))
 
 
 def accuracy_count(plan):
@@ -33,24 +35,10 @@ def _repeats(plan, mode):
 
 
 def _modes(plan, sequence):
+    detector = detectors.choose(sequence.directory, plan.detector)
     for mode in plan.modes:
-        for repeat in range(_repeats(plan, mode)):
-            yield _run(plan, sequence, mode)
-
-
-def _run(plan, sequence, mode, **options):
-    options.setdefault("max_frames", plan.max_frames)
-    return run_rgbd_tum(plan.programs, sequence, mode, plan.output_dir, timeout_s=plan.timeout_s, **options)
-
-
-def _on(sequence, trial, **labels):
-    """Runs a trial on a sequence; a sequence that cannot be had is one failed result, not the end."""
-    try:
-        with sequence.ready() as ready:
-            for result in trial(ready):
-                yield {**result, **labels}
-    except (InputError, OSError) as error:
-        yield {"sequence": sequence.name, "mode": "-", "status": None, "error": str(error), **labels}
+        for _ in range(_repeats(plan, mode)):
+            yield {**run_on(plan, sequence, mode, arguments=detector.arguments), "detector": detector.label}
 
 
 def static_rooms(plan):
@@ -59,7 +47,7 @@ def static_rooms(plan):
         for sensor, noise in SENSORS.items():
             for seed in range(1, plan.seeds + 1):
                 sequence = SimulatedSequence(plan.programs, preset, plan.work_dir, plan.frames, seed, noise)
-                yield from _on(sequence, lambda ready: [_run(plan, ready, "threaded", max_frames=None)],
+                yield from on_sequence(sequence, lambda ready: [run_on(plan, ready, "threaded", max_frames=None)],
                                preset=preset, sensor=sensor)
 
 
@@ -71,9 +59,9 @@ def plateau(plan):
 
     def rounds(ready):
         for count in PLATEAU_ROUNDS:
-            yield {**_run(plan, ready, "threaded", max_frames=count * plan.frames), "rounds": count}
+            yield {**run_on(plan, ready, "threaded", max_frames=count * plan.frames), "rounds": count}
 
-    yield from ({"rounds": "-", **result} for result in _on(sequence, rounds))
+    yield from ({"rounds": "-", **result} for result in on_sequence(sequence, rounds))
 
 
 def sanitizers(plan):
@@ -95,7 +83,7 @@ def sanitizers(plan):
             error = result["error"] or (f"{reports} reports" if reports else None)
             yield {**result, "reports": reports, "error": error}
 
-        yield from _on(source, run, preset=preset)
+        yield from on_sequence(source, run, preset=preset)
 
 
 def count_reports(stderr):

@@ -60,7 +60,7 @@ class Fitter {
         keypoints_(keypoints),
         random_(random),
         taken_(scene.depth_m.size(), std::uint8_t{0}),
-        growth_(scene.depth_m, taken_) {}
+        growth_(scene.depth_m, scene.still_age, taken_) {}
 
   /// The surface whose outline fits the box best: a detector draws its box round the person, while a wall
   /// goes on behind the box and a monitor in front of him ends inside it.

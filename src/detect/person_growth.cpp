@@ -5,17 +5,19 @@
 #include <utility>
 
 #include "detect/depth_grid.h"
+#include "detect/still_age.h"
 
 namespace cpslam {
 namespace {
 
 constexpr float kFrontBandM = 0.7F;     // limits of the growth: an arm stretched out to the camera,
-constexpr float kBackBandM = 0.45F;     // a leg behind
+constexpr float kBackBandM = 0.8F;      // a leg behind
 constexpr float kMinPieceShare = 0.2F;  // of the largest piece
-constexpr float kMaxPieceLeak = 0.5F;   // cells that go on outside the box, by the root of all
-constexpr float kInlierStepM = 0.1F;    // more between two inliers
-constexpr int kMarginCells = 1;         // that a person may reach over his box
-constexpr int kGapCells = 3;            // without readings
+constexpr std::size_t kMinArrivedCells = 4;
+constexpr float kMaxPieceLeak = 0.5F;  // cells that go on outside the box, by the root of all
+constexpr float kInlierStepM = 0.1F;   // more between two inliers
+constexpr int kMarginCells = 1;        // that a person may reach over his box
+constexpr int kGapCells = 3;           // without readings
 
 float middle_px(int cell) {
   return (static_cast<float>(cell) + 0.5F) * static_cast<float>(kDepthCellPx) - 0.5F;
@@ -23,8 +25,8 @@ float middle_px(int cell) {
 
 }  // namespace
 
-PersonGrowth::PersonGrowth(const cv::Mat1f& depth_m, const cv::Mat1b& taken)
-    : depth_m_(depth_m), taken_(taken), piece_(depth_m.size(), 0) {}
+PersonGrowth::PersonGrowth(const cv::Mat1f& depth_m, const cv::Mat1b& still_age, const cv::Mat1b& taken)
+    : depth_m_(depth_m), still_age_(still_age), taken_(taken), piece_(depth_m.size(), 0) {}
 
 GrownSurface PersonGrowth::grow(const SdfModel& model, const cv::Rect& box_cells, const PlacePrior& prior,
                                 const std::vector<GridPlane>& background) {
@@ -58,9 +60,29 @@ GrownSurface PersonGrowth::grow(const SdfModel& model, const cv::Rect& box_cells
     leaks += piece_leaks;
     surface.cells.insert(surface.cells.end(), pieces[i].begin(), pieces[i].end());
   }
+  add_arrived(box_cells, static_cast<int>(pieces.size()) + 1, surface);
   std::sort(surface.cells.begin(), surface.cells.end());
   surface.leak = static_cast<float>(leaks) / static_cast<float>(box_cells.width + box_cells.height);
   return surface;
+}
+
+void PersonGrowth::add_arrived(const cv::Rect& box_cells, int number, GrownSurface& surface) {
+  for (int y = box_cells.y; y < box_cells.br().y; ++y) {
+    for (int x = box_cells.x; x < box_cells.br().x; ++x) {
+      if (still_age_(y, x) > kArrivedAge || piece_(y, x) != 0 || !is_free(x, y) || !in_band(depth_m_(y, x)))
+        continue;
+      const std::vector<int> piece = flood(y * depth_m_.cols + x, number++);
+      const auto arrived = std::count_if(piece.begin(), piece.end(),
+                                         [this](int cell) { return still_age_(cell) <= kArrivedAge; });
+      if (piece.size() < kMinArrivedCells || 2 * arrived < static_cast<std::ptrdiff_t>(piece.size()))
+        continue;
+      surface.cells.insert(surface.cells.end(), piece.begin(), piece.end());
+    }
+  }
+}
+
+bool PersonGrowth::in_band(float depth_m) const {
+  return depth_m >= model_.mean_m - kFrontBandM && depth_m <= model_.mean_m + kBackBandM;
 }
 
 int PersonGrowth::count_leaks(const std::vector<int>& cells) const {
@@ -109,7 +131,7 @@ void PersonGrowth::visit_neighbour(int from, int dx, int dy, int number, std::ve
   if (!limits_.contains(next) || piece_(next) != 0 || !is_free(next.x, next.y)) return;
   const float here_m = depth_m_(from);
   const float depth_m = depth_m_(next);
-  if (depth_m < model_.mean_m - kFrontBandM || depth_m > model_.mean_m + kBackBandM) return;
+  if (!in_band(depth_m)) return;
   const bool both_inliers = model_.contains(here_m) && model_.contains(depth_m);
   const float step_m = connected_step_m(depth_m) + (both_inliers ? kInlierStepM : 0.0F);
   if (std::abs(depth_m - here_m) > step_m) return;

@@ -29,8 +29,12 @@ cv::Mat1b carry_still_age(const GridCamera& camera, const cv::Mat1f& previous_de
   for (int cell = 0; cell < camera.n_cells(); ++cell) {
     const float known_m = expected_m(cell);
     if (known_m <= 0.0F || depth_m(cell) <= 0.0F) continue;
-    const bool agrees = std::abs(depth_m(cell) - known_m) < still_tolerance_m(known_m);
-    age(cell) = agrees ? static_cast<std::uint8_t>(std::min(kOldest, age(cell) + 1)) : std::uint8_t{0};
+    const float nearer_m = known_m - depth_m(cell);
+    if (std::abs(nearer_m) < still_tolerance_m(known_m)) {
+      age(cell) = static_cast<std::uint8_t>(std::min(kOldest, age(cell) + 1));
+    } else {
+      age(cell) = nearer_m > 0.0F ? std::uint8_t{0} : kUnknownStillAge;
+    }
   }
   return age;
 }

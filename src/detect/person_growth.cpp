@@ -11,9 +11,9 @@ namespace cpslam {
 namespace {
 
 constexpr float kFrontBandM = 0.7F;     // limits of the growth: an arm stretched out to the camera,
-constexpr float kBackBandM = 0.8F;      // a leg behind
+constexpr float kBackBandM = 1.0F;      // a leg behind
 constexpr float kMinPieceShare = 0.2F;  // of the largest piece
-constexpr std::size_t kMinArrivedCells = 4;
+constexpr std::size_t kMinMovingCells = 4;
 constexpr float kMaxPieceLeak = 0.5F;  // cells that go on outside the box, by the root of all
 constexpr float kInlierStepM = 0.1F;   // more between two inliers
 constexpr int kMarginCells = 1;        // that a person may reach over his box
@@ -52,33 +52,35 @@ GrownSurface PersonGrowth::grow(const SdfModel& model, const cv::Rect& box_cells
   int leaks = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (weights[i] < enough) continue;
-    const int piece_leaks = count_leaks(pieces[i]);
     const bool is_largest = static_cast<std::ptrdiff_t>(i) == largest - weights.begin();
-    if (!is_largest &&
-        static_cast<float>(piece_leaks) > kMaxPieceLeak * std::sqrt(static_cast<float>(pieces[i].size())))
-      continue;
-    leaks += piece_leaks;
+    if (!is_largest && leaks_much(pieces[i])) continue;
+    leaks += count_leaks(pieces[i]);
     surface.cells.insert(surface.cells.end(), pieces[i].begin(), pieces[i].end());
   }
-  add_arrived(box_cells, static_cast<int>(pieces.size()) + 1, surface);
+  add_moving(box_cells, static_cast<int>(pieces.size()) + 1, surface);
   std::sort(surface.cells.begin(), surface.cells.end());
   surface.leak = static_cast<float>(leaks) / static_cast<float>(box_cells.width + box_cells.height);
   return surface;
 }
 
-void PersonGrowth::add_arrived(const cv::Rect& box_cells, int number, GrownSurface& surface) {
+void PersonGrowth::add_moving(const cv::Rect& box_cells, int number, GrownSurface& surface) {
+  const auto is_still = [this](int cell) { return still_age_(cell) >= kStillAge; };
   for (int y = box_cells.y; y < box_cells.br().y; ++y) {
     for (int x = box_cells.x; x < box_cells.br().x; ++x) {
-      if (still_age_(y, x) > kArrivedAge || piece_(y, x) != 0 || !is_free(x, y) || !in_band(depth_m_(y, x)))
-        continue;
-      const std::vector<int> piece = flood(y * depth_m_.cols + x, number++);
-      const auto arrived = std::count_if(piece.begin(), piece.end(),
-                                         [this](int cell) { return still_age_(cell) <= kArrivedAge; });
-      if (piece.size() < kMinArrivedCells || 2 * arrived < static_cast<std::ptrdiff_t>(piece.size()))
+      const int seed = y * depth_m_.cols + x;
+      if (is_still(seed) || piece_(y, x) != 0 || !is_free(x, y) || !in_band(depth_m_(y, x))) continue;
+      const std::vector<int> piece = flood(seed, number++);
+      const auto still = std::count_if(piece.begin(), piece.end(), is_still);
+      if (piece.size() < kMinMovingCells || 2 * still > static_cast<std::ptrdiff_t>(piece.size()) ||
+          leaks_much(piece))
         continue;
       surface.cells.insert(surface.cells.end(), piece.begin(), piece.end());
     }
   }
+}
+
+bool PersonGrowth::leaks_much(const std::vector<int>& piece) const {
+  return static_cast<float>(count_leaks(piece)) > kMaxPieceLeak * std::sqrt(static_cast<float>(piece.size()));
 }
 
 bool PersonGrowth::in_band(float depth_m) const {

@@ -37,10 +37,11 @@ class PersonGrowth {
                                   const std::vector<GridPlane>& background);
 
  private:
-  void add_arrived(const cv::Rect& box_cells, int number, GrownSurface& surface);
+  void add_moving(const cv::Rect& box_cells, int number, GrownSurface& surface);
   std::vector<int> flood(int seed, int number);
   void visit_neighbour(int from, int dx, int dy, int number, std::vector<int>& cells);
   [[nodiscard]] bool is_free(int x, int y) const;
+  [[nodiscard]] bool leaks_much(const std::vector<int>& piece) const;
   [[nodiscard]] bool in_band(float depth_m) const;
   [[nodiscard]] int count_leaks(const std::vector<int>& cells) const;
   [[nodiscard]] float weigh(const std::vector<int>& cells, const PlacePrior& prior) const;

@@ -16,8 +16,6 @@ namespace cpslam {
                                         const SE3& this_from_previous);
 
 inline constexpr std::uint8_t kUnknownStillAge = 8;
-/// Up to this age a surface has just arrived.
-inline constexpr std::uint8_t kArrivedAge = 5;
 /// From this age on a surface counts as still.
 inline constexpr std::uint8_t kStillAge = 12;
 

@@ -7,7 +7,7 @@
 
 #include "detect/depth_grid.h"
 #include "detect/person_growth.h"
-#include "detect/still_age.h"
+#include "detect/still_surface.h"
 
 namespace cpslam {
 namespace {

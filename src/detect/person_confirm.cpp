@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "detect/still_age.h"
+#include "detect/still_surface.h"
 
 namespace cpslam {
 namespace {
@@ -30,6 +30,23 @@ float box_overlap(const PersonBox& a, const PersonBox& b) {
   if (width <= 0.0 || height <= 0.0) return 0.0F;
   const double common = width * height;
   return static_cast<float>(common / (area(a) + area(b) - common));
+}
+
+/// Who is expected in each box, judged by the boxes alone.
+std::vector<KnownBox> recognise(std::span<const PersonBox> boxes, const std::vector<PersonTrack>& tracks) {
+  std::vector<KnownBox> known;
+  for (const PersonBox& box : boxes) {
+    KnownBox found{box, 0};
+    float best = kMinOverlap;
+    for (const PersonTrack& track : tracks) {
+      const float overlap = box_overlap(box, track.box);
+      if (overlap <= best) continue;
+      best = overlap;
+      found.number = track.number;
+    }
+    known.push_back(found);
+  }
+  return known;
 }
 
 struct Pair {
@@ -78,7 +95,8 @@ void merge(const PersonFit& fit, const cv::Rect& box_cells, const cv::Mat1f& dep
   for (const int cell : fit.cells) merged.add(cell, depth_m(cell));
   for (const int cell : track.visible.cells) {
     const cv::Point at(cell % depth_m.cols, cell / depth_m.cols);
-    const bool near_box = around.contains(at) && !box_cells.contains(at) && still_age(cell) < kStillAge;
+    const bool near_box =
+        around.contains(at) && !box_cells.contains(at) && still_age(cell) < StillSurface::kStillAge;
     if (near_box && !std::binary_search(fit.cells.begin(), fit.cells.end(), cell))
       merged.add(cell, depth_m(cell));
   }
@@ -109,7 +127,7 @@ void confirm_people(const GridCamera& camera, const cv::Mat1f& depth_m, const cv
                     Random& random, std::vector<PersonTrack>& tracks) {
   const cv::Mat1b labels = paint_people(tracks, depth_m.size());
   const std::vector<PersonFit> fits =
-      fit_people(camera, {depth_m, labels, still_age}, boxes, keypoints, random);
+      fit_people(camera, {depth_m, labels, still_age}, recognise(boxes, tracks), keypoints, random);
   std::vector<bool> box_used(boxes.size(), false);
   std::vector<bool> track_used(tracks.size(), false);
   for (const Pair& pair : find_pairs(boxes, fits, tracks, labels)) {

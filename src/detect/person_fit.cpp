@@ -8,7 +8,7 @@
 #include "detect/depth_grid.h"
 #include "detect/person_growth.h"
 #include "detect/place_prior.h"
-#include "detect/still_age.h"
+#include "detect/still_surface.h"
 
 namespace cpslam {
 namespace {
@@ -60,16 +60,17 @@ class Fitter {
         keypoints_(keypoints),
         random_(random),
         taken_(scene.depth_m.size(), std::uint8_t{0}),
-        growth_(scene.depth_m, scene.still_age, taken_) {}
+        growth_(scene, taken_) {}
 
   /// The surface whose outline fits the box best: a detector draws its box round the person, while a wall
   /// goes on behind the box and a monitor in front of him ends inside it.
-  PersonFit fit(const PersonBox& box) {
+  PersonFit fit(const KnownBox& known_box) {
+    const PersonBox& box = known_box.box;
     PersonFit best;
     const cv::Rect area = cells_of_box(camera_, box);
     if (area.empty()) return best;
     const PlacePrior prior(box, camera_.image_size());
-    std::vector<DepthSample> samples = gather_samples(box, area, prior);
+    std::vector<DepthSample> samples = gather_samples(known_box, area, prior);
     const std::vector<GridPlane> background = find_background_planes(depth_m_, area, random_);
     float best_score = 0.0F;
     float left = 1.0F;  // share of the samples that no surface has explained
@@ -78,13 +79,15 @@ class Fitter {
       candidate.model = fit_sdf_model(samples, random_);
       const float share = candidate.model.share * left;
       if (!candidate.model.valid() || (share < kMinShare && i > 0)) break;
-      GrownSurface surface = growth_.grow(candidate.model, area, prior, background);
+      GrownSurface surface = growth_.grow(candidate.model, area, prior, background, known_box.number);
       candidate.cells = std::move(surface.cells);
       const float match = outline_match(candidate.cells, depth_m_.cols, area) *
                           std::max(0.0F, 1.0F - kLeakCost * surface.leak);
-      const float known = share_of(candidate.cells, [this](int cell) { return scene_.people(cell) != 0; });
-      const float still =
-          share_of(candidate.cells, [this](int cell) { return scene_.still_age(cell) >= kStillAge; });
+      const float known = share_of(candidate.cells, [&](int cell) {
+        return known_box.number != 0 && scene_.people(cell) == known_box.number;
+      });
+      const float still = share_of(
+          candidate.cells, [this](int cell) { return scene_.still_age(cell) >= StillSurface::kStillAge; });
       const float score = match * std::sqrt(share) * (1.0F + known) * (1.0F - kStillCost * still);
       if (score > best_score) {
         best_score = score;
@@ -107,7 +110,7 @@ class Fitter {
   }
 
  private:
-  [[nodiscard]] std::vector<DepthSample> gather_samples(const PersonBox& box, const cv::Rect& area,
+  [[nodiscard]] std::vector<DepthSample> gather_samples(const KnownBox& known_box, const cv::Rect& area,
                                                         const PlacePrior& prior) const {
     std::vector<DepthSample> samples;
     const int step =
@@ -116,22 +119,22 @@ class Fitter {
       for (int x = area.x + step / 2; x < area.br().x; x += step) {
         if (depth_m_(y, x) > 0.0F && taken_(y, x) == 0)
           samples.push_back({depth_m_(y, x), prior.weight(middle_px(x), middle_px(y)) *
-                                                 history_weight(y * depth_m_.cols + x)});
+                                                 history_weight(y * depth_m_.cols + x, known_box.number)});
       }
     }
     for (const DepthKeypoint& k : keypoints_) {
-      if (k.depth_m <= 0.0F || !inside(box, k)) continue;
+      if (k.depth_m <= 0.0F || !inside(known_box.box, k)) continue;
       const int cell = camera_.cell_of_pixel(k.x, k.y);
       if (cell >= 0 && taken_(cell) == 0)
-        samples.push_back({k.depth_m, prior.weight(k.x, k.y) * history_weight(cell)});
+        samples.push_back({k.depth_m, prior.weight(k.x, k.y) * history_weight(cell, known_box.number)});
     }
     return samples;
   }
 
   /// What moved lately, or was somebody before, is more likely to be the person.
-  [[nodiscard]] float history_weight(int cell) const {
-    const float known = scene_.people(cell) != 0 ? kKnownWeight : 1.0F;
-    return known * (scene_.still_age(cell) >= kStillAge ? kStillWeight : 1.0F);
+  [[nodiscard]] float history_weight(int cell, std::uint8_t number) const {
+    const float known = number != 0 && scene_.people(cell) == number ? kKnownWeight : 1.0F;
+    return known * (scene_.still_age(cell) >= StillSurface::kStillAge ? kStillWeight : 1.0F);
   }
   template <typename Test>
   [[nodiscard]] static float share_of(const std::vector<int>& cells, const Test& test) {
@@ -163,12 +166,12 @@ cv::Rect cells_of_box(const GridCamera& camera, const PersonBox& box) {
 }
 
 std::vector<PersonFit> fit_people(const GridCamera& camera, const SceneEvidence& scene,
-                                  std::span<const PersonBox> boxes, std::span<const DepthKeypoint> keypoints,
+                                  std::span<const KnownBox> boxes, std::span<const DepthKeypoint> keypoints,
                                   Random& random) {
   Fitter fitter(camera, scene, keypoints, random);
   std::vector<PersonFit> fits;
   fits.reserve(boxes.size());
-  for (const PersonBox& box : boxes) fits.push_back(fitter.fit(box));
+  for (const KnownBox& box : boxes) fits.push_back(fitter.fit(box));
   std::vector<std::size_t> nearest_first(boxes.size());
   std::iota(nearest_first.begin(), nearest_first.end(), std::size_t{0});
   std::stable_sort(nearest_first.begin(), nearest_first.end(),

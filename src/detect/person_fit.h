@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <span>
 #include <vector>
 
 #include "cpslam/types.h"
 #include "detect/grid_camera.h"
+#include "detect/scene_evidence.h"
 #include "detect/sdf_model.h"
 #include "util/random.h"
 
@@ -18,11 +20,10 @@ struct DepthKeypoint {
   float depth_m = 0.0F;
 };
 
-/// What is known of a frame before its boxes are looked at. Cells of the depth grid.
-struct SceneEvidence {
-  const cv::Mat1f& depth_m;
-  const cv::Mat1b& people;     ///< paint_people of those carried into the frame
-  const cv::Mat1b& still_age;  ///< carry_still_age
+/// A person's box, and who he is if he was carried into the frame, else 0.
+struct KnownBox {
+  PersonBox box;
+  std::uint8_t number = 0;
 };
 
 /// The surface of the person in a box.
@@ -36,7 +37,7 @@ struct PersonFit {
 /// first and what he covers takes no part in the next one's fit. The results are parallel to the boxes.
 /// Depths of people carried into the frame count for more, those of surfaces that have stood still for less.
 [[nodiscard]] std::vector<PersonFit> fit_people(const GridCamera& camera, const SceneEvidence& scene,
-                                                std::span<const PersonBox> boxes,
+                                                std::span<const KnownBox> boxes,
                                                 std::span<const DepthKeypoint> keypoints, Random& random);
 
 /// Cells of the grid that a box covers, at least one; empty when it lies outside the image.

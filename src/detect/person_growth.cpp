@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "detect/depth_grid.h"
-#include "detect/still_age.h"
+#include "detect/still_surface.h"
 
 namespace cpslam {
 namespace {
@@ -13,6 +13,8 @@ namespace {
 constexpr float kFrontBandM = 0.7F;     // limits of the growth: an arm stretched out to the camera,
 constexpr float kBackBandM = 1.0F;      // a leg behind
 constexpr float kMinPieceShare = 0.2F;  // of the largest piece
+constexpr float kMovingShare = 0.4F;    // a person moves when less of him has stood still
+constexpr float kStillPieceShare = 0.8F;
 constexpr std::size_t kMinMovingCells = 4;
 constexpr float kMaxPieceLeak = 0.5F;  // cells that go on outside the box, by the root of all
 constexpr float kInlierStepM = 0.1F;   // more between two inliers
@@ -25,13 +27,15 @@ float middle_px(int cell) {
 
 }  // namespace
 
-PersonGrowth::PersonGrowth(const cv::Mat1f& depth_m, const cv::Mat1b& still_age, const cv::Mat1b& taken)
-    : depth_m_(depth_m), still_age_(still_age), taken_(taken), piece_(depth_m.size(), 0) {}
+PersonGrowth::PersonGrowth(const SceneEvidence& scene, const cv::Mat1b& taken)
+    : scene_(scene), depth_m_(scene.depth_m), taken_(taken), piece_(scene.depth_m.size(), 0) {}
 
 GrownSurface PersonGrowth::grow(const SdfModel& model, const cv::Rect& box_cells, const PlacePrior& prior,
-                                const std::vector<GridPlane>& background) {
+                                const std::vector<GridPlane>& background, std::uint8_t number) {
   model_ = model;
   background_ = &background;
+  number_ = number;
+  front_m_ = model.mean_m - kFrontBandM;
   limits_ = cv::Rect(box_cells.x - kMarginCells, box_cells.y - kMarginCells,
                      box_cells.width + 2 * kMarginCells, box_cells.height + 2 * kMarginCells) &
             cv::Rect({}, depth_m_.size());
@@ -49,11 +53,13 @@ GrownSurface PersonGrowth::grow(const SdfModel& model, const cv::Rect& box_cells
   if (pieces.empty()) return surface;
   const auto largest = std::max_element(weights.begin(), weights.end());
   const float enough = kMinPieceShare * *largest;
+  const bool moves = still_share(pieces[static_cast<std::size_t>(largest - weights.begin())]) < kMovingShare;
   int leaks = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (weights[i] < enough) continue;
     const bool is_largest = static_cast<std::ptrdiff_t>(i) == largest - weights.begin();
-    if (!is_largest && leaks_much(pieces[i])) continue;
+    if (!is_largest && (leaks_much(pieces[i]) || (moves && still_share(pieces[i]) > kStillPieceShare)))
+      continue;
     leaks += count_leaks(pieces[i]);
     surface.cells.insert(surface.cells.end(), pieces[i].begin(), pieces[i].end());
   }
@@ -63,20 +69,24 @@ GrownSurface PersonGrowth::grow(const SdfModel& model, const cv::Rect& box_cells
   return surface;
 }
 
-void PersonGrowth::add_moving(const cv::Rect& box_cells, int number, GrownSurface& surface) {
-  const auto is_still = [this](int cell) { return still_age_(cell) >= kStillAge; };
+void PersonGrowth::add_moving(const cv::Rect& box_cells, int piece_number, GrownSurface& surface) {
+  front_m_ = 0.0F;
   for (int y = box_cells.y; y < box_cells.br().y; ++y) {
     for (int x = box_cells.x; x < box_cells.br().x; ++x) {
-      const int seed = y * depth_m_.cols + x;
-      if (is_still(seed) || piece_(y, x) != 0 || !is_free(x, y) || !in_band(depth_m_(y, x))) continue;
-      const std::vector<int> piece = flood(seed, number++);
-      const auto still = std::count_if(piece.begin(), piece.end(), is_still);
-      if (piece.size() < kMinMovingCells || 2 * still > static_cast<std::ptrdiff_t>(piece.size()) ||
-          leaks_much(piece))
-        continue;
+      const bool still = scene_.still_age(y, x) >= StillSurface::kStillAge;
+      if (still || piece_(y, x) != 0 || !is_free(x, y) || !in_band(depth_m_(y, x))) continue;
+      const std::vector<int> piece = flood(y * depth_m_.cols + x, piece_number++);
+      if (piece.size() < kMinMovingCells || still_share(piece) > 0.5F || leaks_much(piece)) continue;
       surface.cells.insert(surface.cells.end(), piece.begin(), piece.end());
     }
   }
+}
+
+float PersonGrowth::still_share(const std::vector<int>& cells) const {
+  const auto still = std::count_if(cells.begin(), cells.end(), [this](int cell) {
+    return scene_.still_age(cell) >= StillSurface::kStillAge;
+  });
+  return static_cast<float>(still) / static_cast<float>(std::max<std::size_t>(1, cells.size()));
 }
 
 bool PersonGrowth::leaks_much(const std::vector<int>& piece) const {
@@ -84,7 +94,7 @@ bool PersonGrowth::leaks_much(const std::vector<int>& piece) const {
 }
 
 bool PersonGrowth::in_band(float depth_m) const {
-  return depth_m >= model_.mean_m - kFrontBandM && depth_m <= model_.mean_m + kBackBandM;
+  return depth_m >= front_m_ && depth_m <= model_.mean_m + kBackBandM;
 }
 
 int PersonGrowth::count_leaks(const std::vector<int>& cells) const {
@@ -108,6 +118,9 @@ int PersonGrowth::count_leaks(const std::vector<int>& cells) const {
 bool PersonGrowth::is_free(int x, int y) const {
   const float depth_m = depth_m_(y, x);
   if (depth_m <= 0.0F || taken_(y, x) != 0) return false;
+  // Nearer than he reaches is only who is nobody else.
+  if (depth_m < model_.mean_m - kFrontBandM && scene_.people(y, x) != 0 && scene_.people(y, x) != number_)
+    return false;
   return std::none_of(background_->begin(), background_->end(),
                       [&](const GridPlane& plane) { return plane.contains(x, y, depth_m); });
 }

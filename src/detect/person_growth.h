@@ -5,6 +5,7 @@
 
 #include "detect/background_planes.h"
 #include "detect/place_prior.h"
+#include "detect/scene_evidence.h"
 #include "detect/sdf_model.h"
 
 namespace cpslam {
@@ -24,35 +25,38 @@ struct GrownSurface {
 /// Grows the depths of a model into a person's surface on the grid.
 class PersonGrowth {
  public:
-  /// still_age: carry_still_age. taken: cells (non-zero) that are somebody else's. All are referred to, not
-  /// copied.
-  PersonGrowth(const cv::Mat1f& depth_m, const cv::Mat1b& still_age, const cv::Mat1b& taken);
+  /// taken: cells (non-zero) that are somebody else's. Both are referred to, not copied.
+  PersonGrowth(const SceneEvidence& scene, const cv::Mat1b& taken);
 
   /// The connected pieces inside the box that hold inliers of the model: the largest, and others that are not
   /// small beside it and end inside the box (legs below a table), or have just arrived there (an arm, the
   /// rear leg). Cells are connected when they lie side by side and have no step in depth, or a small one and
   /// both are inliers (an arm in front of a torso). A gap without readings, the shadow of that arm, is
-  /// jumped. What lies on the background planes is not the person's.
+  /// jumped. What lies on the background planes is not the person's,
+  /// nor is, when he moves, what stands still. number: his, if he is known.
   [[nodiscard]] GrownSurface grow(const SdfModel& model, const cv::Rect& box_cells, const PlacePrior& prior,
-                                  const std::vector<GridPlane>& background);
+                                  const std::vector<GridPlane>& background, std::uint8_t number);
 
  private:
   void add_moving(const cv::Rect& box_cells, int number, GrownSurface& surface);
   std::vector<int> flood(int seed, int number);
   void visit_neighbour(int from, int dx, int dy, int number, std::vector<int>& cells);
   [[nodiscard]] bool is_free(int x, int y) const;
+  [[nodiscard]] float still_share(const std::vector<int>& cells) const;
   [[nodiscard]] bool leaks_much(const std::vector<int>& piece) const;
   [[nodiscard]] bool in_band(float depth_m) const;
   [[nodiscard]] int count_leaks(const std::vector<int>& cells) const;
   [[nodiscard]] float weigh(const std::vector<int>& cells, const PlacePrior& prior) const;
 
+  const SceneEvidence& scene_;
   const cv::Mat1f& depth_m_;
-  const cv::Mat1b& still_age_;
   const cv::Mat1b& taken_;
   cv::Mat1i piece_;
   // of the call at hand
   SdfModel model_;
   cv::Rect limits_;
+  std::uint8_t number_ = 0;  // of the person expected in the box
+  float front_m_ = 0.0F;     // nothing nearer is his
   const std::vector<GridPlane>* background_ = nullptr;
 };
 

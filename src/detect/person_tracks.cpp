@@ -5,7 +5,6 @@
 
 #include "detect/person_carry.h"
 #include "detect/person_confirm.h"
-#include "detect/still_age.h"
 
 namespace cpslam {
 
@@ -51,12 +50,11 @@ void PersonTracks::carry_into(std::size_t index) {
   FrameState& state = frames_[index];
   state.carried.clear();
   if (index == 0) {
-    state.still_age = cv::Mat1b(state.depth_m.size(), kUnknownStillAge);
+    state.still = StillSurface::begin(state.depth_m);
   } else {
     const FrameState& previous = frames_[index - 1];
-    if (state.still_age.empty()) {
-      state.still_age = carry_still_age(camera_, previous.depth_m, previous.still_age, state.depth_m,
-                                        state.this_from_previous);
+    if (state.still.age.empty()) {
+      state.still = previous.still.carry(camera_, state.depth_m, state.this_from_previous);
     }
     state.carried = previous.tracks;
     carry_people(camera_,
@@ -80,7 +78,7 @@ void PersonTracks::follow_into(std::size_t index) {
 
 void PersonTracks::apply_boxes(FrameState& state) {
   state.tracks = state.carried;
-  confirm_people(camera_, state.depth_m, state.still_age, state.time_s, state.boxes,
+  confirm_people(camera_, state.depth_m, state.still.age, state.time_s, state.boxes,
                  state.keypoints.keypoints, random_, state.tracks);
 }
 

@@ -9,6 +9,7 @@
 #include "detect/grid_camera.h"
 #include "detect/person_flow.h"
 #include "detect/person_track.h"
+#include "detect/still_surface.h"
 #include "geometry/se3.h"
 #include "util/random.h"
 
@@ -47,7 +48,7 @@ class PersonTracks {
     std::uint64_t frame = 0;
     double time_s = 0.0;
     cv::Mat1f depth_m;
-    cv::Mat1b still_age;
+    StillSurface still;
     SE3 this_from_previous;
     FlowKeypoints keypoints;
     std::vector<PersonBox> boxes;

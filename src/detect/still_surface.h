@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+
+#include "detect/grid_camera.h"
+#include "geometry/se3.h"
+
+namespace cpslam {
+
+/// What stands still against the room, as far as depths tell, per cell of the depth grid.
+struct StillSurface {
+  cv::Mat1f
+      depth_m;    ///< of the surface, a running mean in which somebody who walks to the camera falls behind
+  cv::Mat1b age;  ///< frames for which it has been found where the camera's motion puts it; up to 250
+
+  /// Nothing known yet.
+  static StillSurface begin(const cv::Mat1f& depth_m);
+  /// The surface in the next frame. Where something has come before what was expected its age begins at 0;
+  /// where nothing was known, or what was uncovered lies behind, at kUnknownAge.
+  [[nodiscard]] StillSurface carry(const GridCamera& camera, const cv::Mat1f& next_depth_m,
+                                   const SE3& next_from_this) const;
+
+  static constexpr std::uint8_t kUnknownAge = 8;
+  static constexpr std::uint8_t kStillAge = 12;  ///< from this age on it counts as still
+};
+
+/// How far a reading of a still surface may be from what another frame predicts (m).
+[[nodiscard]] float still_tolerance_m(float depth_m);
+
+}  // namespace cpslam

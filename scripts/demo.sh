@@ -8,21 +8,23 @@ set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
 
-preset=walking_xyz
-people=()
+preset=
+people=
 frames=300
 seed=1
 install=yes
 while (($#)); do
   case "$1" in
     --preset) preset="${2:?--preset needs a name}" && shift 2 ;;
-    --people) people=(--people "${2:?--people needs a number}") && shift 2 ;;
+    --people) people="${2:?--people needs a number}" && shift 2 ;;
     --frames) frames="${2:?--frames needs a number}" && shift 2 ;;
     --seed) seed="${2:?--seed needs a number}" && shift 2 ;;
     --no-install) install=no && shift ;;
     *) usage_error "unknown option '$1' (known: --preset NAME, --people N, --frames N, --seed N, --no-install)" ;;
   esac
 done
+# Six people before a turning camera: without the filter it is carried along with them.
+if [[ -z $preset ]]; then preset=walking_rpy people="${people:-6}"; fi
 
 if [[ $install == yes ]]; then "$ROOT/scripts/install_dependencies.sh"; fi
 build_preset release simulate_tum rgbd_tum
@@ -38,7 +40,8 @@ run_on_sequence() {
 }
 
 say "Simulating $frames frames of '$preset' with the noise of a structured-light sensor"
-"$BIN/simulate_tum" "$preset" "$SEQUENCE" --frames "$frames" --noise --seed "$seed" --force "${people[@]}"
+"$BIN/simulate_tum" "$preset" "$SEQUENCE" --frames "$frames" --noise --seed "$seed" --force \
+  ${people:+--people "$people"}
 
 say "Running rgbd_tum with the boxes of the people, drawing what it removes"
 rm -rf -- "$OUTPUT/pictures" # those of an earlier, longer run

@@ -15,7 +15,7 @@ ProgramResult run_with(std::vector<std::string> options) {
 
 /// Not a usage error: the run gets as far as the sequence that is not there.
 void expect_understood(const std::vector<std::string>& options) {
-  expect_refused(run_with(options), {"no_such_sequence", "--quiet"});
+  expect_refused(run_with(options), {"no_such_sequence"});
 }
 
 TEST(PeopleOptions, BoxesAndModelAreDetectorsOfTheirOwn) {

@@ -1,43 +1,63 @@
 #!/usr/bin/env bash
-# From a fresh checkout to a trajectory: installs what is missing, builds, simulates an RGB-D sequence, runs rgbd_tum
-# on it, prints its errors and draws them. Everything is written to demo_output/.
+# From a fresh checkout to two trajectories: installs what is missing, builds, simulates an RGB-D sequence of an office
+# where people walk, runs rgbd_tum on it with the people's boxes and without, prints the errors of both and draws them in
+# one picture. Everything is written to demo_output/.
 #
-#   demo.sh [--preset NAME] [--frames N] [--seed N] [--no-install]
+#   demo.sh [--preset NAME] [--people N] [--frames N] [--seed N] [--no-install]
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
 
-preset=office_halfsphere
+preset=
+people=
 frames=300
 seed=1
 install=yes
 while (($#)); do
   case "$1" in
     --preset) preset="${2:?--preset needs a name}" && shift 2 ;;
+    --people) people="${2:?--people needs a number}" && shift 2 ;;
     --frames) frames="${2:?--frames needs a number}" && shift 2 ;;
     --seed) seed="${2:?--seed needs a number}" && shift 2 ;;
     --no-install) install=no && shift ;;
-    *) usage_error "unknown option '$1' (known: --preset NAME, --frames N, --seed N, --no-install)" ;;
+    *) usage_error "unknown option '$1' (known: --preset NAME, --people N, --frames N, --seed N, --no-install)" ;;
   esac
 done
+# Six people before a turning camera: without the filter it is carried along with them.
+if [[ -z $preset ]]; then preset=walking_rpy people="${people:-6}"; fi
 
 if [[ $install == yes ]]; then "$ROOT/scripts/install_dependencies.sh"; fi
 build_preset release simulate_tum rgbd_tum
 readonly BIN="$ROOT/build/release/bin" OUTPUT="$ROOT/demo_output"
+readonly SEQUENCE="$OUTPUT/sequence"
 mkdir -p "$OUTPUT"
 
+# run_on_sequence NAME [OPTION...]: rgbd_tum's results go to demo_output/NAME/.
+run_on_sequence() {
+  local output="$OUTPUT/$1"
+  shift
+  "$BIN/rgbd_tum" - "$SEQUENCE/settings.yaml" "$SEQUENCE" --output "$output" --seed "$seed" "$@"
+}
+
 say "Simulating $frames frames of '$preset' with the noise of a structured-light sensor"
-"$BIN/simulate_tum" "$preset" "$OUTPUT/sequence" --frames "$frames" --noise --seed "$seed" --force
+"$BIN/simulate_tum" "$preset" "$SEQUENCE" --frames "$frames" --noise --seed "$seed" --force \
+  ${people:+--people "$people"}
 
-say "Running rgbd_tum"
-"$BIN/rgbd_tum" - "$OUTPUT/sequence/settings.yaml" "$OUTPUT/sequence" --output "$OUTPUT" --seed "$seed"
+say "Running rgbd_tum with the boxes of the people, drawing what it removes"
+rm -rf -- "$OUTPUT/pictures" # those of an earlier, longer run
+run_on_sequence filter --boxes "$SEQUENCE/person_boxes.txt" --draw "$OUTPUT/pictures"
 
-say "Errors of the trajectory"
-"$ROOT/scripts/plot_trajectory.py" "$OUTPUT/sequence/groundtruth.txt" "$OUTPUT/CameraTrajectory.txt" \
-  --labels CP-SLAM --title "$preset, $frames frames" --output "$OUTPUT/trajectory.png"
+say "Running rgbd_tum without a filter"
+run_on_sequence no_filter --detector none
+
+say "Errors of the trajectories"
+"$ROOT/scripts/plot_trajectory.py" "$SEQUENCE/groundtruth.txt" \
+  "$OUTPUT/filter/CameraTrajectory.txt" "$OUTPUT/no_filter/CameraTrajectory.txt" \
+  --labels CP-SLAM "no filter" --title "$preset, $frames frames" --output "$OUTPUT/trajectory.png"
 
 say "Done"
-echo "sequence    $OUTPUT/sequence"
-echo "trajectory  $OUTPUT/CameraTrajectory.txt"
-echo "statistics  $OUTPUT/stats.json"
-echo "picture     $OUTPUT/trajectory.png"
+echo "sequence      $SEQUENCE"
+echo "trajectories  $OUTPUT/{filter,no_filter}/CameraTrajectory.txt"
+echo "statistics    $OUTPUT/{filter,no_filter}/stats.json"
+echo "frames        $OUTPUT/pictures/: kept keypoints green, those on people red"
+echo "plot          $OUTPUT/trajectory.png"

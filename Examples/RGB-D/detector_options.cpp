@@ -50,7 +50,7 @@ void add_detector_group(CLI::App& app, DetectorOptions& options) {
   app.add_option("--classes", options.classes,
                  "Indices of the network's classes that count as people, with commas; default 0")
       ->delimiter(',')
-      ->expected(1)
+      ->allow_extra_args(false)
       ->check(CLI::Range(0, 9999))
       ->type_name("INDICES")
       ->group(group);

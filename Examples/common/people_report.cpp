@@ -62,7 +62,7 @@ std::string people_text(const RunReport& report) {
   if (people.extended_frames > 0)
     text += line("            %zu frames were extracted again beside the people", people.extended_frames);
   if (people.detector_failures > 0)
-    text += line("            the detector failed %zu times (see the errors)", people.detector_failures);
+    text += line("            the detector failed on %zu images (see the errors)", people.detector_failures);
   if (const StageTimes* detect = find_stage(report.statistics, "detect")) {
     text += line("detector    %.1f ms an image (median), %.1f ms (95 %%), %.1f ms (max)", detect->p50_ms,
                  detect->p95_ms, detect->max_ms);

@@ -266,7 +266,7 @@ class DetectorThread::Impl {
 };
 
 DetectorThread::DetectorThread(std::unique_ptr<PersonDetector> detector, const DetectorThreadOptions& options,
-                               StageTimer& timer, Log log)
+                               StageTimer& timer, const Log& log)
     : impl_(std::make_unique<Impl>(std::move(detector), options, timer, log)) {}
 DetectorThread::~DetectorThread() = default;
 void DetectorThread::offer(std::uint64_t frame, double time_s, const cv::Mat& colour) {

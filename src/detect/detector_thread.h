@@ -33,7 +33,7 @@ struct DetectorThreadOptions {
 class DetectorThread {
  public:
   DetectorThread(std::unique_ptr<PersonDetector> detector, const DetectorThreadOptions& options,
-                 StageTimer& timer, Log log);
+                 StageTimer& timer, const Log& log);
   /// Joins the thread: waits for a detection under way however long it takes (see finish()).
   ~DetectorThread();
 

@@ -206,6 +206,7 @@ PeopleStatistics People::statistics() const {
   PeopleStatistics statistics = counts_;
   statistics.detections = n_callers_boxes_ + (detector_ ? detector_->n_detections() : 0);
   statistics.detector_failures = detector_ ? detector_->n_failures() : 0;
+  statistics.detector_stuck = detector_ && detector_->is_stuck();
   if (frames_with_boxes_ > 0)
     statistics.mean_boxes_age_s = boxes_age_sum_s_ / static_cast<double>(frames_with_boxes_);
   return statistics;

@@ -21,8 +21,11 @@ TEST(CommandLine, HelpNamesEveryOption) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
   for (const char* const word :
-       {"VOCABULARY", "SETTINGS", "SEQUENCE", "ASSOCIATIONS", "--output", "--detector", "--sequential",
-        "--realtime", "--start", "--max-frames", "--seed", "--print-settings", "--quiet", "--version"}) {
+       {"VOCABULARY",    "SETTINGS",         "SEQUENCE",       "ASSOCIATIONS",   "--output",
+        "--detector",    "--sequential",     "--realtime",     "--start",        "--max-frames",
+        "--seed",        "--print-settings", "--quiet",        "--version",      "--boxes",
+        "--model",       "--classes",        "--quantise",     "--boxes-policy", "--boxes-rate",
+        "--boxes-delay", "--people-filter",  "--no-reinstate", "--save-boxes",   "--draw"}) {
     EXPECT_THAT(result.out, HasSubstr(word));
   }
 }

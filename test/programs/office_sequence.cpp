@@ -9,9 +9,10 @@
 
 namespace cpslam {
 
-OfficeSequence::OfficeSequence() {
+OfficeSequence::OfficeSequence(const std::string& preset, double start_s) {
   sim::SimulationOptions options;
-  options.preset = "office_xyz";
+  options.preset = preset;
+  options.start_s = start_s;
   options.n_frames = static_cast<int>(kFrames);
   options.camera.width = kWidth;
   options.camera.height = kHeight;

@@ -17,7 +17,8 @@ class OfficeSequence {
   static constexpr std::size_t kFrames = 12;
   static constexpr int kWidth = 320, kHeight = 240;
 
-  OfficeSequence();
+  /// preset: of the simulator; with people in it there is a person_boxes.txt too. start_s: into its path.
+  explicit OfficeSequence(const std::string& preset = "office_xyz", double start_s = 0.0);
 
   [[nodiscard]] const TemporaryFolder& folder() const { return folder_; }
   [[nodiscard]] std::string path() const { return folder_.file("office"); }

@@ -121,17 +121,42 @@ def test_demo_goes_from_nothing_to_a_picture(shell, tmp_path):
     root = tmp_path / "root"
     root.mkdir()
     subprocess.run(["cp", "-r", SCRIPTS, root], check=True)
-    walk = "".join(f"{i / 10} {i / 10} {(i % 5) / 5} 0 0 0 0 1\n" for i in range(40))
+    walk, astray = ("".join(f"{i / 10} {scale * i / 10} {(i % 5) / 5} 0 0 0 0 1\n" for i in range(40))
+                    for scale in (1.0, 1.2))
     install(root / "build/release/bin/simulate_tum",
             f'#!/bin/bash\necho "simulate_tum $*" >> "$CALLS"\nmkdir -p "$2"\nprintf "{walk!s}" > "$2/groundtruth.txt"\n')
-    install(root / "build/release/bin/rgbd_tum",
-            '#!/bin/bash\necho "rgbd_tum $*" >> "$CALLS"\ncp "$3/groundtruth.txt" "$5/CameraTrajectory.txt"\n')
-    process, calls = shell(str(root / "scripts" / "demo.sh"), "--frames", "40", "--no-install")
-    assert process.returncode == 0, process.stderr
+    # Goes astray without the people's boxes.
+    install(root / "build/release/bin/rgbd_tum", f"""#!/bin/bash
+echo "rgbd_tum $*" >> "$CALLS"
+mkdir -p "$5"
+if [[ " $* " == *" --boxes "* ]]; then cp "$3/groundtruth.txt" "$5/CameraTrajectory.txt"
+else printf "{astray!s}" > "$5/CameraTrajectory.txt"; fi
+""")
     output = root / "demo_output"
+    (output / "pictures").mkdir(parents=True)
+    (output / "pictures" / "of_an_earlier_run.jpg").touch()
+    process, calls = shell(str(root / "scripts" / "demo.sh"), "--frames", "40", "--people", "5", "--no-install")
+    assert process.returncode == 0, process.stderr
     assert calls[1].endswith("--target simulate_tum rgbd_tum")
-    assert f"{output}/sequence --frames 40 --noise --seed 1 --force" in calls[2]
-    assert calls[3].startswith(f"rgbd_tum - {output}/sequence/settings.yaml {output}/sequence --output {output}")
-    assert "| CP-SLAM    | 40    | 0.0000     |" in process.stdout
+    assert calls[2].startswith("simulate_tum walking_")
+    assert calls[2].endswith(f"{output}/sequence --frames 40 --noise --seed 1 --force --people 5")
+    assert calls[3:] == [
+        f"rgbd_tum - {output}/sequence/settings.yaml {output}/sequence --output {output}/filter --seed 1 "
+        f"--boxes {output}/sequence/person_boxes.txt --draw {output}/pictures",
+        f"rgbd_tum - {output}/sequence/settings.yaml {output}/sequence --output {output}/no_filter --seed 1 --detector none"]
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in process.stdout.splitlines() if "|" in line]
+    assert rows[2][:3] == ["CP-SLAM", "40", "0.0000"]
+    assert rows[3][:2] == ["no filter", "40"] and float(rows[3][2]) > 0.1
     assert (output / "trajectory.png").read_bytes().startswith(b"\x89PNG")
     assert str(output / "trajectory.png") in process.stdout
+    assert not (output / "pictures" / "of_an_earlier_run.jpg").exists()
+
+
+def test_a_failing_simulation_ends_the_demo(shell, tmp_path):
+    root = tmp_path / "root"
+    root.mkdir()
+    subprocess.run(["cp", "-r", SCRIPTS, root], check=True)
+    install(root / "build/release/bin/simulate_tum", '#!/bin/bash\necho "simulate_tum $*" >> "$CALLS"\nexit 9\n')
+    process, calls = shell(str(root / "scripts" / "demo.sh"), "--preset", "office_xyz", "--no-install")
+    assert process.returncode == 9
+    assert calls[2].startswith("simulate_tum office_xyz") and calls[2].endswith("--force")

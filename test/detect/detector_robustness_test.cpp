@@ -105,7 +105,7 @@ TEST_F(BrokenModelTest, ChangedConfigsWhoseWeightsFit) {
       "[yolo]\nmask=0,2\nanchors=3,4, 5,6, 20,30\nclasses=2\nnum=3\nscale_x_y=1.1\n";
   Random random(14);
   int good = 0;
-  for (int i = 0; i < 600; ++i) {
+  for (int i = 0; i < 2000; ++i) {
     const std::string changed = i == 0 ? config : mutate(config, random, false);
     try {
       const DarknetNetwork network = read_darknet_network(changed, "net.cfg");

@@ -116,12 +116,6 @@ void DarknetSection::add(std::string_view key, std::string_view value, std::size
   }
 }
 
-std::string DarknetSection::text() const {
-  std::string text = "[" + kind_ + "]\n";
-  for (const auto& [key, value] : values_) text += key + "=" + value.text + "\n";
-  return text;
-}
-
 std::vector<DarknetSection> parse_darknet_config(const std::string& text, const std::string& path) {
   std::vector<DarknetSection> sections;
   std::string_view rest = text;
@@ -131,9 +125,10 @@ std::vector<DarknetSection> parse_darknet_config(const std::string& text, const 
     rest.remove_prefix(std::min(end + 1, rest.size()));
     if (line.empty() || line[0] == '#' || line[0] == ';') continue;
     const std::size_t equals = line.find('=');
-    if (line[0] == '[' && line.size() > 2 && line.back() == ']') {
+    const bool is_section = line[0] == '[' && line.size() > 2 && line.back() == ']';
+    if (is_section) {
       sections.emplace_back(path, number, line.substr(1, line.size() - 2));
-    } else if (equals == std::string::npos || equals == 0) {
+    } else if (equals == std::string::npos || equals == 0 || line[0] == '[') {
       throw InputError(at_line(path, number) + "'" + printable(line) + "' is not of the form 'key=value'");
     } else if (!sections.empty()) {
       sections.back().add(line.substr(0, equals), line.substr(equals + 1), number);

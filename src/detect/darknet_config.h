@@ -33,8 +33,6 @@ class DarknetSection {
   [[noreturn]] void fail(const std::string& what, std::string_view key = {}) const;
 
   void add(std::string_view key, std::string_view value, std::size_t line);
-  /// The section as Darknet reads it.
-  [[nodiscard]] std::string text() const;
 
  private:
   struct Value {

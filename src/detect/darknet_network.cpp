@@ -1,47 +1,22 @@
 #include "detect/darknet_network.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
+#include <string>
 #include <string_view>
 
-#include "cpslam/error.h"
-#include "detect/darknet_config.h"
+#include "detect/darknet_transcript.h"
 
 namespace cpslam {
 namespace {
 
 constexpr int kMaxInput = 4096;
 constexpr int kMaxFilters = 1 << 16;
+constexpr int kMaxWindow = 64;  // size, stride, padding of a convolution or a pooling
+constexpr int kMaxLayers = 100000;
 constexpr int kMaxClasses = 80;
 constexpr std::size_t kMaxHeads = 3;
 /// Of all layers together: 2 GB of floats. YOLOv3 at 1024 x 1024 has 0.3e9.
 constexpr double kMaxActivations = 512e6;
-
-constexpr auto kActivations =
-    std::to_array<std::string_view>({"linear", "leaky", "relu", "swish", "mish", "logistic"});
-
-/// Keys that give a layer weights, or a meaning, that OpenCV does not know, and the value that does not.
-struct UnsupportedKey {
-  std::string_view key;
-  std::string_view harmless;
-};
-constexpr auto kUnsupported = std::to_array<UnsupportedKey>({
-    {"antialiasing", "0"},
-    {"deform", "0"},
-    {"share_index", ""},
-    {"dilation", "1"},
-    {"flipped", "0"},
-    {"binary", "0"},
-    {"xnor", "0"},
-    {"stride_x", ""},
-    {"stride_y", ""},
-    {"maxpool_depth", "0"},
-    {"scale", "1"},
-    {"reverse", "0"},
-    {"weights_type", "none"},
-    {"counters_per_class", ""},
-});
 
 class NetworkReader {
  public:
@@ -54,47 +29,33 @@ class NetworkReader {
     }
     if (net.required_int("channels", 1, kMaxFilters) != 3)
       net.fail("channels must be 3 (colour)", "channels");
-    network_.config = net.text();
+    network_.config = "[net]\nwidth=" + std::to_string(network_.input.width) +
+                      "\nheight=" + std::to_string(network_.input.height) + "\nchannels=3\n";
   }
 
   DarknetNetwork read() {
     previous_ = {"net", {network_.input.width, network_.input.height, 3}, 1, 0};
     for (std::size_t i = 1; i < sections_.size(); ++i) {
       section_ = &sections_[i];
-      refuse_unsupported_keys();
-      add(read_layer());
-      network_.config += section_->kind() == "yolo" ? yolo_text() : section_->text();
+      DarknetTranscript transcript(*section_);
+      add(read_layer(transcript));
+      network_.config += transcript.text();
     }
     check_whole();
     return std::move(network_);
   }
 
  private:
-  DarknetLayer read_layer() {
+  DarknetLayer read_layer(DarknetTranscript& values) {
     const std::string& kind = section_->kind();
-    if (kind == "convolutional") return convolutional();
-    if (kind == "maxpool") return maxpool();
-    if (kind == "upsample") return upsample();
-    if (kind == "route") return route();
-    if (kind == "shortcut") return shortcut();
+    if (kind == "convolutional") return convolutional(values);
+    if (kind == "maxpool") return maxpool(values);
+    if (kind == "upsample") return upsample(values);
+    if (kind == "route") return route(values);
+    if (kind == "shortcut") return shortcut(values);
     if (kind == "dropout") return previous_;
-    if (kind == "yolo") return yolo();
+    if (kind == "yolo") return yolo(values);
     section_->fail("is a kind of layer that is not supported");
-  }
-
-  void refuse_unsupported_keys() const {
-    for (const UnsupportedKey& entry : kUnsupported) {
-      const std::string_view value = section_->optional_text(entry.key, entry.harmless);
-      if (section_->has(entry.key) && value != entry.harmless) {
-        section_->fail(std::string(entry.key) + "= is not supported", entry.key);
-      }
-    }
-  }
-
-  void check_activation(std::string_view activation) const {
-    if (std::find(kActivations.begin(), kActivations.end(), activation) != kActivations.end()) return;
-    section_->fail("activation must be linear, leaky, relu, swish (for silu), mish or logistic",
-                   "activation");
   }
 
   /// Sides after a window of `size` moves over the image by `stride`, `padding` cells more on both sides
@@ -109,14 +70,16 @@ class NetworkReader {
     if (layer.stride > kMaxInput) section_->fail("nothing is left of the input after so many strides");
   }
 
-  DarknetLayer convolutional() const {
-    const int filters = section_->required_int("filters", 1, kMaxFilters);
-    const int size = section_->required_int("size", 1, 64);
-    const int groups = section_->optional_int("groups", 1, 1, kMaxFilters);
-    const bool normalise = section_->optional_int("batch_normalize", 0, 0, 1) == 1;
+  DarknetLayer convolutional(DarknetTranscript& values) {
+    const int filters = values.required("filters", 1, kMaxFilters);
+    const int size = values.required("size", 1, kMaxWindow);
+    const int stride = values.optional("stride", 1, 1, kMaxWindow);
+    const int groups = values.optional("groups", 1, 1, kMaxFilters);
+    const bool normalise = values.optional("batch_normalize", 0, 0, 1) == 1;
     const bool pad = section_->optional_int("pad", 0, 0, 1) == 1;
-    const int padding = pad ? size / 2 : section_->optional_int("padding", 0, 0, 64);
-    check_activation(section_->required_text("activation"));
+    const int padding = pad ? size / 2 : section_->optional_int("padding", 0, 0, kMaxWindow);
+    values.write("padding", std::to_string(padding));
+    values.activation();
     const int channels = previous_.output.channels;
     if (channels % groups != 0 || filters % groups != 0) {
       section_->fail("groups must divide the " + std::to_string(channels) +
@@ -125,24 +88,25 @@ class NetworkReader {
     }
     DarknetLayer layer;
     layer.output.channels = filters;
-    slide_window(layer, size, section_->optional_int("stride", 1, 1, 64), 2 * padding);
+    slide_window(layer, size, stride, 2 * padding);
     const auto n = [](int value) { return static_cast<std::size_t>(value); };
     // Filter taps and bias; with batch normalisation also scale, mean and variance.
     layer.n_weights = n(filters) * n(channels / groups) * n(size * size) + n(filters) * (normalise ? 4U : 1U);
     return layer;
   }
 
-  DarknetLayer maxpool() const {
-    const int size = section_->required_int("size", 1, 64);
+  DarknetLayer maxpool(DarknetTranscript& values) {
+    const int size = values.required("size", 1, kMaxWindow);
+    const int stride = values.required("stride", 1, kMaxWindow);
+    const int padding = values.optional("padding", size - 1, 0, size - 1);
     DarknetLayer layer;
     layer.output.channels = previous_.output.channels;
-    const int padding = section_->optional_int("padding", size - 1, 0, size - 1);
-    slide_window(layer, size, section_->required_int("stride", 1, 64), padding);
+    slide_window(layer, size, stride, padding);
     return layer;
   }
 
-  DarknetLayer upsample() const {
-    const int factor = section_->optional_int("stride", 2, 1, 64);
+  DarknetLayer upsample(DarknetTranscript& values) {
+    const int factor = values.optional("stride", 2, 1, kMaxWindow);
     if (previous_.stride % factor != 0) section_->fail("makes more of the input than it had", "stride");
     DarknetLayer layer = previous_;
     layer.stride /= factor;
@@ -162,16 +126,18 @@ class NetworkReader {
     return network_.layers[static_cast<std::size_t>(absolute)];
   }
 
-  DarknetLayer route() const {
-    const std::vector<int> indices = section_->required_ints("layers", -100000, 100000);
-    const int groups = section_->optional_int("groups", 1, 1, kMaxFilters);
-    (void)section_->optional_int("group_id", 0, 0, groups - 1);
+  DarknetLayer route(DarknetTranscript& values) {
+    const std::vector<int> indices = values.required_ints("layers", -kMaxLayers, kMaxLayers);
+    const int groups = values.optional("groups", 1, 1, kMaxFilters);
+    values.optional("group_id", 0, 0, groups - 1);
     DarknetLayer layer = layer_at(indices.front(), "layers");
     for (std::size_t i = 1; i < indices.size(); ++i) {
       const DarknetLayer& other = layer_at(indices[i], "layers");
-      if (other.stride != layer.stride) section_->fail("joins layers of different sizes", "layers");
-      if (other.output.width != layer.output.width || other.output.height != layer.output.height) {
-        fail_input_size();
+      if (other.output.width != layer.output.width || other.output.height != layer.output.height ||
+          other.stride != layer.stride) {
+        // The halves of an odd size, doubled again, are another size.
+        if (other.stride == layer.stride) check_input_size();
+        section_->fail("joins layers of different sizes", "layers");
       }
       layer.output.channels += other.output.channels;
       if (layer.output.channels > kMaxFilters) section_->fail("joins too many channels", "layers");
@@ -182,32 +148,36 @@ class NetworkReader {
     return layer;
   }
 
-  DarknetLayer shortcut() const {
-    const std::vector<int> from = section_->required_ints("from", -100000, 100000);
+  DarknetLayer shortcut(DarknetTranscript& values) {
+    const std::vector<int> from = values.required_ints("from", -kMaxLayers, kMaxLayers);
     if (from.size() != 1) section_->fail("takes one layer", "from");
-    check_activation(section_->optional_text("activation", "linear"));
+    values.activation("linear");
     if (layer_at(from.front(), "from").output != previous_.output) {
       section_->fail("adds layers of different shapes", "from");
     }
     return previous_;
   }
 
-  DarknetLayer yolo() {
+  DarknetLayer yolo(DarknetTranscript& values) {
     YoloHead head;
     head.grid_width = previous_.output.width;
     head.grid_height = previous_.output.height;
     head.stride = previous_.stride;
-    head.n_classes = section_->required_int("classes", 1, kMaxClasses);
-    head.scale_x_y = section_->optional_number("scale_x_y", 1.0, 0.5, 4.0);
-    (void)section_->optional_int("new_coords", 0, 0, 1);
-    const std::vector<double> sides = section_->required_numbers("anchors", 1e-3, 1e5);
-    const int n_anchors = section_->required_int("num", 1, 100);
+    head.n_classes = values.required("classes", 1, kMaxClasses);
+    head.scale_x_y = values.optional_number("scale_x_y", 1.0, 0.5, 4.0);
+    values.optional("new_coords", 0, 0, 1);
+    const std::vector<double> sides = values.required_numbers("anchors", 1e-3, 1e5);
+    const int n_anchors = values.required("num", 1, 100);
     if (sides.size() != 2 * static_cast<std::size_t>(n_anchors)) {
       section_->fail("num=" + std::to_string(n_anchors) + ", but there are " + std::to_string(sides.size()) +
                          " anchor sides",
                      "anchors");
     }
-    for (const int index : section_->required_ints("mask", 0, n_anchors - 1)) {
+    // OpenCV sets scores up to `thresh` to zero, 0.2 if nobody says otherwise, and drops boxes that overlap:
+    // both are the decoder's business.
+    values.write("thresh", "0");
+    values.write("nms_threshold", "0");
+    for (const int index : values.required_ints("mask", 0, n_anchors - 1)) {
       const auto at = 2 * static_cast<std::size_t>(index);
       head.anchors_px.emplace_back(sides[at], sides[at + 1]);
     }
@@ -224,17 +194,6 @@ class NetworkReader {
     return previous_;
   }
 
-  /// OpenCV sets scores up to `thresh` to zero, 0.2 if the file does not say otherwise, and drops overlapping
-  /// boxes: both are the decoder's business.
-  std::string yolo_text() const {
-    std::string text = "[yolo]\nthresh=0\nnms_threshold=0\n";
-    for (const std::string_view key : {"mask", "anchors", "classes", "num", "scale_x_y", "new_coords"}) {
-      if (section_->has(key))
-        text += std::string(key) + "=" + std::string(section_->required_text(key)) + "\n";
-    }
-    return text;
-  }
-
   void add(DarknetLayer layer) {
     layer.kind = section_->kind();
     if (layer.kind != "convolutional") layer.n_weights = 0;
@@ -248,20 +207,18 @@ class NetworkReader {
   void check_whole() {
     if (network_.heads.empty()) sections_.back().fail("is the last section, but there was no [yolo]");
     network_.n_classes = network_.heads.front().n_classes;
-    const int stride = largest_stride();
-    if (network_.input.width % stride != 0 || network_.input.height % stride != 0) fail_input_size();
+    check_input_size();
   }
 
-  [[nodiscard]] int largest_stride() const {
+  void check_input_size() const {
     int stride = 1;
     for (const DarknetLayer& layer : network_.layers) stride = std::max(stride, layer.stride);
-    return stride;
-  }
-
-  [[noreturn]] void fail_input_size() const {
-    sections_.front().fail("the input size " + std::to_string(network_.input.width) + " x " +
-                           std::to_string(network_.input.height) + " must be a multiple of " +
-                           std::to_string(largest_stride()) + " px, the network's largest stride");
+    const int width = network_.input.width;
+    const int height = network_.input.height;
+    if (width % stride == 0 && height % stride == 0) return;
+    sections_.front().fail("the input size " + std::to_string(width) + " x " + std::to_string(height) +
+                           " must be a multiple of " + std::to_string(stride) +
+                           " px, the network's largest stride");
   }
 
   const std::vector<DarknetSection>& sections_;

@@ -39,7 +39,7 @@ struct DarknetNetwork {
   std::vector<YoloHead> heads;  ///< in the order of the file
   int n_classes = 0;            ///< the same for all heads
   std::size_t n_weights = 0;    ///< floats in the .weights file, its header not counted
-  std::string config;           ///< the .cfg as OpenCV is to get it
+  std::string config;           ///< a .cfg of what was understood, for OpenCV
 };
 
 /// Works out every layer's shape and weights from the text of a .cfg for the given input size; a side of 0:

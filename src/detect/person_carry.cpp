@@ -25,26 +25,10 @@ float agreement_m(float depth_m, double dt_s) {
 
 /// What the previous frame says about this one.
 struct Prediction {
-  explicit Prediction(cv::Size size)
-      : static_m(size, 0.0F), person(size, std::uint8_t{0}), person_m(size, 0.0F) {}
-  cv::Mat1f static_m;  // depth of what belongs to nobody, 0 unknown
-  cv::Mat1b person;    // index of the track + 1
+  explicit Prediction(cv::Size size) : person(size, std::uint8_t{0}), person_m(size, 0.0F) {}
+  cv::Mat1b person;  // index of the track + 1
   cv::Mat1f person_m;
 };
-
-void predict_static(const GridCamera& camera, const FrameStep& step, const cv::Mat1b& people,
-                    Prediction& prediction) {
-  const FloatTransform move(step.this_from_previous);
-  for (int cell = 0; cell < camera.n_cells(); ++cell) {
-    const float depth_m = step.previous_depth_m(cell);
-    if (depth_m <= 0.0F || people(cell) != 0) continue;
-    const Eigen::Vector3f moved = move * camera.point(cell, depth_m);
-    const int there = camera.cell_of(moved);
-    if (there < 0) continue;
-    float& known_m = prediction.static_m(there);
-    if (known_m <= 0.0F || moved.z() < known_m) known_m = moved.z();
-  }
-}
 
 GridSurface move_surface(const GridCamera& camera, const FloatTransform& move, const Eigen::Vector3f& offset,
                          const GridSurface& surface) {
@@ -88,8 +72,9 @@ class Finder {
   Finder(const FrameStep& step, const Prediction& prediction)
       : step_(step), prediction_(prediction), taken_(step.depth_m.size(), std::uint8_t{0}) {}
 
-  GridSurface find(std::uint8_t index, const GridSurface& predicted) {
+  GridSurface find(std::uint8_t index, const GridSurface& predicted, bool walks) {
     found_.clear();
+    walks_ = walks;
     for (const int cell : predicted.cells) {
       if (prediction_.person(cell) == index && taken_(cell) == 0 && agrees(cell)) take(cell);
     }
@@ -108,14 +93,11 @@ class Finder {
   [[nodiscard]] bool agrees(int cell) const {
     const float depth_m = step_.depth_m(cell);
     if (depth_m <= 0.0F) return false;
-    const float off = std::abs(depth_m - prediction_.person_m(cell));
-    if (off > agreement_m(depth_m, step_.dt_s)) return false;
-    return !is_static(cell) || off < std::abs(depth_m - prediction_.static_m(cell));
+    if (walks_ && is_still(cell)) return false;
+    return std::abs(depth_m - prediction_.person_m(cell)) < agreement_m(depth_m, step_.dt_s);
   }
-  [[nodiscard]] bool is_static(int cell) const {
-    const float static_m = prediction_.static_m(cell);
-    return static_m > 0.0F && std::abs(step_.depth_m(cell) - static_m) < still_tolerance_m(static_m);
-  }
+  [[nodiscard]] bool is_still(int cell) const { return step_.still_age(cell) >= StillSurface::kStillAge; }
+  [[nodiscard]] bool has_arrived(int cell) const { return step_.still_age(cell) < StillSurface::kUnknownAge; }
   void take(int cell) {
     taken_(cell) = 1;
     found_.add(cell, step_.depth_m(cell));
@@ -131,7 +113,7 @@ class Finder {
       const float depth_m = step_.depth_m(next);
       if (depth_m <= 0.0F || std::abs(depth_m - step_.depth_m(cell)) > connected_step_m(depth_m)) continue;
       const std::uint8_t other = prediction_.person(next);
-      if ((other != 0 && other != index) || is_static(there)) continue;
+      if ((other != 0 && other != index) || !has_arrived(there)) continue;
       take(there);
     }
   }
@@ -141,6 +123,7 @@ class Finder {
   cv::Mat1b taken_;
   GridSurface found_;
   std::size_t n_agreeing_ = 0;
+  bool walks_ = false;
 };
 
 void enter_people(const std::vector<GridSurface>& moved, Prediction& prediction) {
@@ -185,7 +168,6 @@ void carry_people(const GridCamera& camera, const FrameStep& step, std::vector<P
   if (tracks.empty()) return;
   const cv::Size size = step.depth_m.size();
   Prediction prediction(size);
-  predict_static(camera, step, paint_people(tracks, size), prediction);
 
   const FloatTransform move(step.this_from_previous);
   std::vector<GridSurface> moved;
@@ -204,7 +186,7 @@ void carry_people(const GridCamera& camera, const FrameStep& step, std::vector<P
   });
   Finder finder(step, prediction);
   for (const std::size_t t : nearest_first) {
-    GridSurface found = finder.find(static_cast<std::uint8_t>(t + 1), moved[t]);
+    GridSurface found = finder.find(static_cast<std::uint8_t>(t + 1), moved[t], is_walking(tracks[t]));
     settle(step, moved[t], std::move(found), finder.n_agreeing(), prediction, tracks[t]);
   }
 }

@@ -11,10 +11,10 @@ namespace cpslam {
 
 /// From one frame to the next.
 struct FrameStep {
-  const cv::Mat1f& previous_depth_m;  ///< depth grids
-  const cv::Mat1f& depth_m;
-  SE3 this_from_previous;  ///< the camera's motion
-  double time_s = 0.0;     ///< of this frame
+  const cv::Mat1f& depth_m;    ///< the depth grid
+  const cv::Mat1b& still_age;  ///< StillSurface::age in this frame
+  SE3 this_from_previous;      ///< the camera's motion
+  double time_s = 0.0;         ///< of this frame
   double dt_s = 0.0;
 };
 

@@ -36,13 +36,14 @@ float box_overlap(const PersonBox& a, const PersonBox& b) {
 std::vector<KnownBox> recognise(std::span<const PersonBox> boxes, const std::vector<PersonTrack>& tracks) {
   std::vector<KnownBox> known;
   for (const PersonBox& box : boxes) {
-    KnownBox found{box, 0};
+    KnownBox found{box};
     float best = kMinOverlap;
     for (const PersonTrack& track : tracks) {
       const float overlap = box_overlap(box, track.box);
       if (overlap <= best) continue;
       best = overlap;
       found.number = track.number;
+      found.moves = is_walking(track);
     }
     known.push_back(found);
   }

@@ -79,21 +79,21 @@ class Fitter {
       candidate.model = fit_sdf_model(samples, random_);
       const float share = candidate.model.share * left;
       if (!candidate.model.valid() || (share < kMinShare && i > 0)) break;
-      GrownSurface surface = growth_.grow(candidate.model, area, prior, background, known_box.number);
+      GrownSurface surface = growth_.grow(candidate.model, area, prior, background, known_box);
       candidate.cells = std::move(surface.cells);
-      const float match = outline_match(candidate.cells, depth_m_.cols, area) *
-                          std::max(0.0F, 1.0F - kLeakCost * surface.leak);
+      candidate.match = outline_match(candidate.cells, depth_m_.cols, area) *
+                        std::max(0.0F, 1.0F - kLeakCost * surface.leak);
       const float known = share_of(candidate.cells, [&](int cell) {
         return known_box.number != 0 && scene_.people(cell) == known_box.number;
       });
       const float still = share_of(
           candidate.cells, [this](int cell) { return scene_.still_age(cell) >= StillSurface::kStillAge; });
-      const float score = match * std::sqrt(share) * (1.0F + known) * (1.0F - kStillCost * still);
+      const float score = candidate.match * std::sqrt(share) * (1.0F + known) * (1.0F - kStillCost * still);
       if (score > best_score) {
         best_score = score;
         best = candidate;
       }
-      if (match > kGoodMatch && known > kMostlyKnown) break;
+      if (candidate.match > kGoodMatch && known > kMostlyKnown) break;
       std::erase_if(samples, [&](const DepthSample& s) { return candidate.model.contains(s.depth_m); });
       left -= share;
     }
@@ -172,11 +172,11 @@ std::vector<PersonFit> fit_people(const GridCamera& camera, const SceneEvidence&
   std::vector<PersonFit> fits;
   fits.reserve(boxes.size());
   for (const KnownBox& box : boxes) fits.push_back(fitter.fit(box));
-  std::vector<std::size_t> nearest_first(boxes.size());
-  std::iota(nearest_first.begin(), nearest_first.end(), std::size_t{0});
-  std::stable_sort(nearest_first.begin(), nearest_first.end(),
-                   [&](std::size_t a, std::size_t b) { return fits[a].model.mean_m < fits[b].model.mean_m; });
-  for (const std::size_t i : nearest_first) {
+  std::vector<std::size_t> surest_first(boxes.size());
+  std::iota(surest_first.begin(), surest_first.end(), std::size_t{0});
+  std::stable_sort(surest_first.begin(), surest_first.end(),
+                   [&](std::size_t a, std::size_t b) { return fits[a].match > fits[b].match; });
+  for (const std::size_t i : surest_first) {
     // A box that shows mostly a person who was found before, in front of its own.
     if (fitter.taken_share(fits[i].cells) > kOverlapShare) fits[i] = fitter.fit(boxes[i]);
     fitter.take(fits[i].cells);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <opencv2/core.hpp>
 #include <span>
 #include <vector>
@@ -20,16 +19,11 @@ struct DepthKeypoint {
   float depth_m = 0.0F;
 };
 
-/// A person's box, and who he is if he was carried into the frame, else 0.
-struct KnownBox {
-  PersonBox box;
-  std::uint8_t number = 0;
-};
-
 /// The surface of the person in a box.
 struct PersonFit {
   SdfModel model;          ///< invalid: the box holds no depth
   std::vector<int> cells;  ///< of the depth grid, ascending
+  float match = 0.0F;      ///< how well the surface ends where the box ends, 0 to 1
 };
 
 /// Finds the person in every box: fit_sdf_model on the depths of keypoints and of grid cells inside the box,

@@ -13,7 +13,7 @@ namespace {
 constexpr float kFrontBandM = 0.7F;     // limits of the growth: an arm stretched out to the camera,
 constexpr float kBackBandM = 1.0F;      // a leg behind
 constexpr float kMinPieceShare = 0.2F;  // of the largest piece
-constexpr float kMovingShare = 0.4F;    // a person moves when less of him has stood still
+constexpr float kMovingShare = 0.4F;    // of cells that have just arrived: then a piece moves
 constexpr float kStillPieceShare = 0.8F;
 constexpr std::size_t kMinMovingCells = 4;
 constexpr float kMaxPieceLeak = 0.5F;  // cells that go on outside the box, by the root of all
@@ -31,10 +31,10 @@ PersonGrowth::PersonGrowth(const SceneEvidence& scene, const cv::Mat1b& taken)
     : scene_(scene), depth_m_(scene.depth_m), taken_(taken), piece_(scene.depth_m.size(), 0) {}
 
 GrownSurface PersonGrowth::grow(const SdfModel& model, const cv::Rect& box_cells, const PlacePrior& prior,
-                                const std::vector<GridPlane>& background, std::uint8_t number) {
+                                const std::vector<GridPlane>& background, const KnownBox& known) {
   model_ = model;
   background_ = &background;
-  number_ = number;
+  known_ = known;
   front_m_ = model.mean_m - kFrontBandM;
   limits_ = cv::Rect(box_cells.x - kMarginCells, box_cells.y - kMarginCells,
                      box_cells.width + 2 * kMarginCells, box_cells.height + 2 * kMarginCells) &
@@ -53,13 +53,13 @@ GrownSurface PersonGrowth::grow(const SdfModel& model, const cv::Rect& box_cells
   if (pieces.empty()) return surface;
   const auto largest = std::max_element(weights.begin(), weights.end());
   const float enough = kMinPieceShare * *largest;
-  const bool moves = still_share(pieces[static_cast<std::size_t>(largest - weights.begin())]) < kMovingShare;
+  const bool he_moves = known_.moves || moves(pieces[static_cast<std::size_t>(largest - weights.begin())]);
   int leaks = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (weights[i] < enough) continue;
-    const bool is_largest = static_cast<std::ptrdiff_t>(i) == largest - weights.begin();
-    if (!is_largest && (leaks_much(pieces[i]) || (moves && still_share(pieces[i]) > kStillPieceShare)))
-      continue;
+    if (static_cast<std::ptrdiff_t>(i) != largest - weights.begin()) {
+      const bool large = weights[i] >= enough && !(he_moves && still_share(pieces[i]) > kStillPieceShare);
+      if ((!large && !moves(pieces[i])) || leaks_much(pieces[i])) continue;
+    }
     leaks += count_leaks(pieces[i]);
     surface.cells.insert(surface.cells.end(), pieces[i].begin(), pieces[i].end());
   }
@@ -73,11 +73,11 @@ void PersonGrowth::add_moving(const cv::Rect& box_cells, int piece_number, Grown
   front_m_ = 0.0F;
   for (int y = box_cells.y; y < box_cells.br().y; ++y) {
     for (int x = box_cells.x; x < box_cells.br().x; ++x) {
-      const bool still = scene_.still_age(y, x) >= StillSurface::kStillAge;
-      if (still || piece_(y, x) != 0 || !is_free(x, y) || !in_band(depth_m_(y, x))) continue;
+      const bool arrived = scene_.still_age(y, x) < StillSurface::kUnknownAge;
+      if (!arrived || piece_(y, x) != 0 || !is_free(x, y) || !in_band(depth_m_(y, x))) continue;
       const std::vector<int> piece = flood(y * depth_m_.cols + x, piece_number++);
-      if (piece.size() < kMinMovingCells || still_share(piece) > 0.5F || leaks_much(piece)) continue;
-      surface.cells.insert(surface.cells.end(), piece.begin(), piece.end());
+      if (moves(piece) && !leaks_much(piece))
+        surface.cells.insert(surface.cells.end(), piece.begin(), piece.end());
     }
   }
 }
@@ -87,6 +87,14 @@ float PersonGrowth::still_share(const std::vector<int>& cells) const {
     return scene_.still_age(cell) >= StillSurface::kStillAge;
   });
   return static_cast<float>(still) / static_cast<float>(std::max<std::size_t>(1, cells.size()));
+}
+
+bool PersonGrowth::moves(const std::vector<int>& piece) const {
+  const auto arrived = std::count_if(piece.begin(), piece.end(), [this](int cell) {
+    return scene_.still_age(cell) < StillSurface::kUnknownAge;
+  });
+  return piece.size() >= kMinMovingCells &&
+         static_cast<float>(arrived) >= kMovingShare * static_cast<float>(piece.size());
 }
 
 bool PersonGrowth::leaks_much(const std::vector<int>& piece) const {
@@ -119,7 +127,8 @@ bool PersonGrowth::is_free(int x, int y) const {
   const float depth_m = depth_m_(y, x);
   if (depth_m <= 0.0F || taken_(y, x) != 0) return false;
   // Nearer than he reaches is only who is nobody else.
-  if (depth_m < model_.mean_m - kFrontBandM && scene_.people(y, x) != 0 && scene_.people(y, x) != number_)
+  if (depth_m < model_.mean_m - kFrontBandM && scene_.people(y, x) != 0 &&
+      scene_.people(y, x) != known_.number)
     return false;
   return std::none_of(background_->begin(), background_->end(),
                       [&](const GridPlane& plane) { return plane.contains(x, y, depth_m); });

@@ -33,9 +33,10 @@ class PersonGrowth {
   /// rear leg). Cells are connected when they lie side by side and have no step in depth, or a small one and
   /// both are inliers (an arm in front of a torso). A gap without readings, the shadow of that arm, is
   /// jumped. What lies on the background planes is not the person's,
-  /// nor is, when he moves, what stands still. number: his, if he is known.
+  /// nor is, when he moves, what stands still. known: what is
+  /// known of him.
   [[nodiscard]] GrownSurface grow(const SdfModel& model, const cv::Rect& box_cells, const PlacePrior& prior,
-                                  const std::vector<GridPlane>& background, std::uint8_t number);
+                                  const std::vector<GridPlane>& background, const KnownBox& known);
 
  private:
   void add_moving(const cv::Rect& box_cells, int number, GrownSurface& surface);
@@ -43,6 +44,7 @@ class PersonGrowth {
   void visit_neighbour(int from, int dx, int dy, int number, std::vector<int>& cells);
   [[nodiscard]] bool is_free(int x, int y) const;
   [[nodiscard]] float still_share(const std::vector<int>& cells) const;
+  [[nodiscard]] bool moves(const std::vector<int>& piece) const;
   [[nodiscard]] bool leaks_much(const std::vector<int>& piece) const;
   [[nodiscard]] bool in_band(float depth_m) const;
   [[nodiscard]] int count_leaks(const std::vector<int>& cells) const;
@@ -55,8 +57,8 @@ class PersonGrowth {
   // of the call at hand
   SdfModel model_;
   cv::Rect limits_;
-  std::uint8_t number_ = 0;  // of the person expected in the box
-  float front_m_ = 0.0F;     // nothing nearer is his
+  KnownBox known_;
+  float front_m_ = 0.0F;  // nothing nearer is his
   const std::vector<GridPlane>* background_ = nullptr;
 };
 

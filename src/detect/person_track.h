@@ -39,6 +39,12 @@ struct PersonTrack {
   int misses = 0;  ///< detections without him since
 };
 
+/// Whether he certainly moves.
+[[nodiscard]] inline bool is_walking(const PersonTrack& track) {
+  constexpr float kWalkingMPerS = 0.25F;
+  return track.velocity_known && track.velocity_m_per_s.norm() > kWalkingMPerS;
+}
+
 /// The number of the person at each cell, 0 where there is none.
 [[nodiscard]] cv::Mat1b paint_people(const std::vector<PersonTrack>& tracks, cv::Size grid_size);
 

@@ -58,7 +58,7 @@ void PersonTracks::carry_into(std::size_t index) {
     }
     state.carried = previous.tracks;
     carry_people(camera_,
-                 {previous.depth_m, state.depth_m, state.this_from_previous, state.time_s,
+                 {state.depth_m, state.still.age, state.this_from_previous, state.time_s,
                   state.time_s - previous.time_s},
                  state.carried);
     forget_people(state.time_s, state.carried);

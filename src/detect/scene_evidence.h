@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core.hpp>
+
+#include "cpslam/types.h"
 
 namespace cpslam {
 
@@ -9,6 +12,13 @@ struct SceneEvidence {
   const cv::Mat1f& depth_m;
   const cv::Mat1b& people;     ///< paint_people of those carried into the frame
   const cv::Mat1b& still_age;  ///< StillSurface::age
+};
+
+/// A person's box, and what is known of him if he was carried into the frame.
+struct KnownBox {
+  PersonBox box;
+  std::uint8_t number = 0;  ///< 0: nobody is expected here
+  bool moves = false;       ///< he walks
 };
 
 }  // namespace cpslam

@@ -21,8 +21,8 @@ struct StillSurface {
   [[nodiscard]] StillSurface carry(const GridCamera& camera, const cv::Mat1f& next_depth_m,
                                    const SE3& next_from_this) const;
 
-  static constexpr std::uint8_t kUnknownAge = 8;
-  static constexpr std::uint8_t kStillAge = 12;  ///< from this age on it counts as still
+  static constexpr std::uint8_t kUnknownAge = 8;  ///< what is younger has arrived
+  static constexpr std::uint8_t kStillAge = 12;   ///< from this age on it counts as still
 };
 
 /// How far a reading of a still surface may be from what another frame predicts (m).

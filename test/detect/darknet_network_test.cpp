@@ -95,6 +95,20 @@ TEST(DarknetNetwork, OpenCvAgreesOnEveryShape) {
   }
 }
 
+TEST(YoloNetwork, RunsEveryActivationInEightBits) {
+  const TemporaryFolder folder;
+  for (const std::string activation : {"leaky", "swish", "mish", "relu", "logistic"}) {
+    const std::string text = tiny_config(2, activation);
+    const DarknetNetwork description = read_darknet_network(text, "tiny.cfg");
+    const std::string weights =
+        folder.write("tiny.weights", weights_file(random_weights(description.n_weights)));
+    YoloNetwork network(folder.write("tiny.cfg", text), weights, {96, 64});
+    const std::vector<cv::Mat> pictures(3, cv::Mat(64, 96, CV_8UC3, cv::Scalar(10.0, 100.0, 200.0)));
+    EXPECT_NO_THROW(network.quantise(pictures)) << activation;
+    EXPECT_NO_THROW((void)network.run(pictures.front())) << activation;
+  }
+}
+
 TEST(DarknetNetwork, OpenCvAgreesOnPaddingGroupsAndShortcuts) {
   const TemporaryFolder folder;
   for (const std::string layer :

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cpslam/person_detector.h"
+#include "detect/darknet_network.h"
 #include "detect/generated_network.h"
 #include "io/error_text.h"
 #include "io/temporary_folder.h"
@@ -89,6 +90,34 @@ TEST_F(BrokenModelTest, ChangedConfigs) {
   for (int i = 0; i < 600; ++i) good += works(mutate(config_, random, false), weights_) ? 1 : 0;
   EXPECT_GT(good, 0);
   EXPECT_LT(good, 400);
+}
+
+TEST_F(BrokenModelTest, ChangedConfigsWhoseWeightsFit) {
+  // Past our checks, so that OpenCV gets to see what they let through.
+  const std::string config =
+      "[net]\nwidth=64\nheight=32\nchannels=3\n"
+      "[convolutional]\nbatch_normalize=1\nfilters=8\nsize=3\nstride=2\npad=1\nactivation=swish\n"
+      "[convolutional]\ngroups=4\nfilters=8\nsize=5\nstride=1\npad=1\nactivation=leaky\n"
+      "[shortcut]\nfrom=-2\nactivation=linear\n[dropout]\nprobability=.2\n"
+      "[route]\nlayers=-1\ngroups=2\ngroup_id=1\n[maxpool]\nsize=2\nstride=2\n"
+      "[convolutional]\nfilters=16\nsize=1\nstride=1\npadding=0\nactivation=mish\n[upsample]\nstride=2\n"
+      "[route]\nlayers=-1,-4,1\n[convolutional]\nfilters=14\nsize=1\nactivation=linear\n"
+      "[yolo]\nmask=0,2\nanchors=3,4, 5,6, 20,30\nclasses=2\nnum=3\nscale_x_y=1.1\n";
+  Random random(14);
+  int good = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const std::string changed = i == 0 ? config : mutate(config, random, false);
+    try {
+      const DarknetNetwork network = read_darknet_network(changed, "net.cfg");
+      if (network.n_weights > 1000000 || network.input.area() > 1000000) continue;
+      std::vector<float> weights(network.n_weights);
+      for (float& weight : weights) weight = static_cast<float>(random.uniform(0.01, 1.0));
+      good += works(changed, weights_file(weights)) ? 1 : 0;
+    } catch (const InputError&) {
+    }
+    EXPECT_GE(good, 1) << "the unchanged one";
+  }
+  EXPECT_GT(good, 50);
 }
 
 TEST_F(BrokenModelTest, ChangedWeights) {

@@ -81,12 +81,13 @@ inline bool eventually(const std::function<bool()>& condition) {
 /// Keeps what is logged.
 class LogBook {
  public:
-  [[nodiscard]] Log log() {
-    return Log([this](LogLevel level, const std::string& message) {
+  [[nodiscard]] LogSink sink() {
+    return [this](LogLevel level, const std::string& message) {
       const std::lock_guard lock(mutex_);
       lines_.emplace_back(level, message);
-    });
+    };
   }
+  [[nodiscard]] Log log() { return Log(sink()); }
   [[nodiscard]] std::vector<std::string> at(LogLevel level) {
     const std::lock_guard lock(mutex_);
     std::vector<std::string> messages;

@@ -84,8 +84,26 @@ std::uint8_t free_number(const std::vector<PersonTrack>& tracks) {
   return number;
 }
 
-/// The fit decides inside the box. What was carried goes on around it: detectors' boxes cut off hands and
-/// feet.
+float still_share(const std::vector<int>& cells, const cv::Mat1b& still_age) {
+  const auto still = std::count_if(cells.begin(), cells.end(),
+                                   [&](int cell) { return still_age(cell) >= StillSurface::kStillAge; });
+  return static_cast<float>(still) / static_cast<float>(std::max<std::size_t>(1, cells.size()));
+}
+
+/// Whether the fit found somebody or something else than who was carried here: then the one who moves is
+/// right.
+bool is_mistaken(const PersonFit& fit, const PersonTrack& track, const cv::Mat1b& still_age) {
+  if (track.confirmations < kConfirmationsToTrust || track.visible.size() < kMinFitCells) return false;
+  const auto shared = std::count_if(track.visible.cells.begin(), track.visible.cells.end(), [&](int cell) {
+    return std::binary_search(fit.cells.begin(), fit.cells.end(), cell);
+  });
+  const auto smaller = static_cast<float>(std::min(fit.cells.size(), track.visible.size()));
+  if (static_cast<float>(shared) >= kMinOverlap * smaller) return false;
+  return still_share(track.visible.cells, still_age) < still_share(fit.cells, still_age);
+}
+
+/// The fit, and what was carried to the box or close to it and does not stand still: detectors' boxes cut off
+/// hands and feet, and fits lose limbs.
 void merge(const PersonFit& fit, const cv::Rect& box_cells, const cv::Mat1f& depth_m,
            const cv::Mat1b& still_age, PersonTrack& track) {
   const int reach_x = static_cast<int>(kAroundBox * static_cast<float>(box_cells.width));
@@ -96,10 +114,8 @@ void merge(const PersonFit& fit, const cv::Rect& box_cells, const cv::Mat1f& dep
   for (const int cell : fit.cells) merged.add(cell, depth_m(cell));
   for (const int cell : track.visible.cells) {
     const cv::Point at(cell % depth_m.cols, cell / depth_m.cols);
-    const bool near_box =
-        around.contains(at) && !box_cells.contains(at) && still_age(cell) < StillSurface::kStillAge;
-    if (near_box && !std::binary_search(fit.cells.begin(), fit.cells.end(), cell))
-      merged.add(cell, depth_m(cell));
+    if (!around.contains(at) || still_age(cell) >= StillSurface::kStillAge) continue;
+    if (!std::binary_search(fit.cells.begin(), fit.cells.end(), cell)) merged.add(cell, depth_m(cell));
   }
   track.visible = std::move(merged);
 }
@@ -110,7 +126,7 @@ void confirm(const GridCamera& camera, const PersonBox& box, const PersonFit& fi
   track.confirmed_s = time_s;
   ++track.confirmations;
   track.misses = 0;
-  if (fit.cells.size() < kMinFitCells) return;
+  if (fit.cells.size() < kMinFitCells || is_mistaken(fit, track, still_age)) return;
   track.seen_s = time_s;
   merge(fit, cells_of_box(camera, box), depth_m, still_age, track);
   track.shape = track.visible;

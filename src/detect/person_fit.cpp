@@ -19,6 +19,7 @@ constexpr float kMinShare = 0.08F;    // of the samples, to be one
 constexpr float kGoodMatch = 0.6F;    // of a surface's outline with the box: no need to look for another
 constexpr float kKnownWeight = 3.0F;  // of the depths of people carried into the frame
 constexpr float kStillWeight = 0.3F;  // of surfaces that have not moved
+constexpr float kKnownGain = 2.0F;
 constexpr float kMostlyKnown = 0.5F;
 constexpr float kStillCost = 0.5F;
 constexpr float kLeakCost = 1.5F;      // of an outline that goes on outside the box
@@ -88,7 +89,8 @@ class Fitter {
       });
       const float still = share_of(
           candidate.cells, [this](int cell) { return scene_.still_age(cell) >= StillSurface::kStillAge; });
-      const float score = candidate.match * std::sqrt(share) * (1.0F + known) * (1.0F - kStillCost * still);
+      const float score =
+          candidate.match * std::sqrt(share) * (1.0F + kKnownGain * known) * (1.0F - kStillCost * still);
       if (score > best_score) {
         best_score = score;
         best = candidate;

@@ -14,6 +14,7 @@ constexpr float kFrontBandM = 0.7F;     // limits of the growth: an arm stretche
 constexpr float kBackBandM = 1.0F;      // a leg behind
 constexpr float kMinPieceShare = 0.2F;  // of the largest piece
 constexpr float kMovingShare = 0.4F;    // of cells that have just arrived: then a piece moves
+constexpr float kWalkingShare = 0.2F;   // the same of a whole person, whose inside seems to stand still
 constexpr float kStillPieceShare = 0.8F;
 constexpr std::size_t kMinMovingCells = 4;
 constexpr float kMaxPieceLeak = 0.5F;  // cells that go on outside the box, by the root of all
@@ -53,7 +54,9 @@ GrownSurface PersonGrowth::grow(const SdfModel& model, const cv::Rect& box_cells
   if (pieces.empty()) return surface;
   const auto largest = std::max_element(weights.begin(), weights.end());
   const float enough = kMinPieceShare * *largest;
-  const bool he_moves = known_.moves || moves(pieces[static_cast<std::size_t>(largest - weights.begin())]);
+  const bool he_moves =
+      known_.moves ||
+      arrived_share(pieces[static_cast<std::size_t>(largest - weights.begin())]) > kWalkingShare;
   int leaks = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (static_cast<std::ptrdiff_t>(i) != largest - weights.begin()) {
@@ -89,12 +92,15 @@ float PersonGrowth::still_share(const std::vector<int>& cells) const {
   return static_cast<float>(still) / static_cast<float>(std::max<std::size_t>(1, cells.size()));
 }
 
-bool PersonGrowth::moves(const std::vector<int>& piece) const {
-  const auto arrived = std::count_if(piece.begin(), piece.end(), [this](int cell) {
+float PersonGrowth::arrived_share(const std::vector<int>& cells) const {
+  const auto arrived = std::count_if(cells.begin(), cells.end(), [this](int cell) {
     return scene_.still_age(cell) < StillSurface::kUnknownAge;
   });
-  return piece.size() >= kMinMovingCells &&
-         static_cast<float>(arrived) >= kMovingShare * static_cast<float>(piece.size());
+  return static_cast<float>(arrived) / static_cast<float>(std::max<std::size_t>(1, cells.size()));
+}
+
+bool PersonGrowth::moves(const std::vector<int>& piece) const {
+  return piece.size() >= kMinMovingCells && arrived_share(piece) >= kMovingShare;
 }
 
 bool PersonGrowth::leaks_much(const std::vector<int>& piece) const {

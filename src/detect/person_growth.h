@@ -44,6 +44,7 @@ class PersonGrowth {
   void visit_neighbour(int from, int dx, int dy, int number, std::vector<int>& cells);
   [[nodiscard]] bool is_free(int x, int y) const;
   [[nodiscard]] float still_share(const std::vector<int>& cells) const;
+  [[nodiscard]] float arrived_share(const std::vector<int>& cells) const;
   [[nodiscard]] bool moves(const std::vector<int>& piece) const;
   [[nodiscard]] bool leaks_much(const std::vector<int>& piece) const;
   [[nodiscard]] bool in_band(float depth_m) const;

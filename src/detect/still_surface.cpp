@@ -17,6 +17,26 @@ float still_tolerance_m(float depth_m) {
   return 0.02F + 4.0F * static_cast<float>(structured_light_sigma_m(static_cast<double>(depth_m)));
 }
 
+namespace {
+
+/// Age of a surface next to a cell that has long stood still and is where the reading says, 0 if there is
+/// none: at an edge in depth the reading of a cell jumps from one side to the other.
+std::uint8_t age_beside(const StillSurface& expected, cv::Point at, float read_m) {
+  constexpr std::uint8_t kEstablished = 20;
+  const cv::Rect around = cv::Rect(at.x - 1, at.y - 1, 3, 3) & cv::Rect({}, expected.age.size());
+  for (int y = around.y; y < around.br().y; ++y) {
+    for (int x = around.x; x < around.br().x; ++x) {
+      const float known_m = expected.depth_m(y, x);
+      if (known_m > 0.0F && expected.age(y, x) >= kEstablished &&
+          std::abs(known_m - read_m) < still_tolerance_m(known_m))
+        return expected.age(y, x);
+    }
+  }
+  return 0;
+}
+
+}  // namespace
+
 StillSurface StillSurface::begin(const cv::Mat1f& depth_m) {
   return {depth_m, cv::Mat1b(depth_m.size(), kUnknownAge)};
 }
@@ -33,6 +53,7 @@ StillSurface StillSurface::carry(const GridCamera& camera, const cv::Mat1f& next
     next.depth_m(there) = moved.z();
     next.age(there) = age(cell);
   }
+  const StillSurface expected{next.depth_m.clone(), next.age.clone()};
   for (int cell = 0; cell < camera.n_cells(); ++cell) {
     const float read_m = next_depth_m(cell);
     if (read_m <= 0.0F) continue;  // what was expected there may still be there
@@ -41,11 +62,12 @@ StillSurface StillSurface::carry(const GridCamera& camera, const cv::Mat1f& next
     if (known_m > 0.0F && std::abs(nearer_m) < still_tolerance_m(known_m)) {
       known_m -= kGain * nearer_m;
       next.age(cell) = static_cast<std::uint8_t>(std::min(kOldest, next.age(cell) + 1));
-    } else {
-      const bool arrived = known_m > 0.0F && nearer_m > 0.0F;
-      next.age(cell) = arrived ? std::uint8_t{0} : kUnknownAge;
-      known_m = read_m;
+      continue;
     }
+    const std::uint8_t beside = age_beside(expected, {cell % depth_m.cols, cell / depth_m.cols}, read_m);
+    const bool arrived = known_m > 0.0F && nearer_m > 0.0F;
+    next.age(cell) = beside > 0 ? beside : (arrived ? std::uint8_t{0} : kUnknownAge);
+    known_m = read_m;
   }
   return next;
 }

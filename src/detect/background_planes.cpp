@@ -11,11 +11,13 @@ namespace cpslam {
 namespace {
 
 constexpr int kRingCells = 8;
-constexpr int kMaxCells = 400;
-constexpr std::size_t kMaxPlanes = 3;
+constexpr int kMaxCells = 250;
+constexpr std::size_t kMaxPlanes = 4;
 constexpr int kHypotheses = 16;
-constexpr std::size_t kMinInliers = 20;
-constexpr double kMinShare = 0.15;  // of the ring
+constexpr int kDrawReach =
+    6;  // cells between the draws of a hypothesis: a small plane is rarely hit thrice otherwise
+constexpr std::size_t kMinInliers = 15;
+constexpr double kMinShare = 0.06;  // of the ring
 
 /// (column, row, 1) and depth of a cell.
 struct RingCell {
@@ -50,7 +52,7 @@ bool on_plane(const GridPlane& plane, const RingCell& cell) {
 std::optional<GridPlane> through(const RingCell& a, const RingCell& b, const RingCell& c) {
   Eigen::Matrix3f m;
   m << a.at.transpose(), b.at.transpose(), c.at.transpose();
-  constexpr float kLeastArea = 20.0F;  // cells^2: flatter triangles say nothing across
+  constexpr float kLeastArea = 8.0F;  // cells^2: flatter triangles say nothing across
   if (std::abs(m.determinant()) < kLeastArea) return std::nullopt;
   return make_plane(m.inverse() * Eigen::Vector3f(1.0F / a.depth_m, 1.0F / b.depth_m, 1.0F / c.depth_m));
 }
@@ -66,25 +68,49 @@ GridPlane refit(const GridPlane& plane, const std::vector<RingCell>& cells) {
   return make_plane(normal.ldlt().solve(right));
 }
 
-std::optional<GridPlane> find_plane(const std::vector<RingCell>& cells, std::size_t min_inliers,
-                                    Random& random) {
-  if (cells.size() < min_inliers) return std::nullopt;
-  std::optional<GridPlane> best;
-  std::size_t best_inliers = min_inliers - 1;
-  const auto draw = [&]() -> const RingCell& { return cells[random.index(cells.size())]; };
-  for (int k = 0; k < kHypotheses; ++k) {
-    const RingCell& a = draw();
-    const RingCell& b = draw();
-    const std::optional<GridPlane> plane = through(a, b, draw());
-    if (!plane) continue;
-    const auto inliers = static_cast<std::size_t>(std::count_if(
-        cells.begin(), cells.end(), [&](const RingCell& cell) { return on_plane(*plane, cell); }));
-    if (inliers <= best_inliers) continue;
-    best_inliers = inliers;
-    best = plane;
+/// Draws planes from the cells around a box.
+class PlaneFinder {
+ public:
+  PlaneFinder(const cv::Mat1f& depth_m, const cv::Rect& box, Random& random)
+      : depth_m_(depth_m), box_(box), random_(random) {}
+
+  [[nodiscard]] std::optional<GridPlane> find(const std::vector<RingCell>& cells, std::size_t min_inliers) {
+    if (cells.size() < min_inliers) return std::nullopt;
+    std::optional<GridPlane> best;
+    std::size_t best_inliers = min_inliers - 1;
+    for (int k = 0; k < kHypotheses; ++k) {
+      const RingCell& a = cells[random_.index(cells.size())];
+      const std::optional<RingCell> b = draw_near(a);
+      const std::optional<RingCell> c = draw_near(a);
+      const std::optional<GridPlane> plane = b && c ? through(a, *b, *c) : std::nullopt;
+      if (!plane) continue;
+      const GridPlane refitted = refit(*plane, cells);
+      const std::size_t inliers = count_on(refitted, cells);
+      if (inliers <= best_inliers) continue;
+      best_inliers = inliers;
+      best = refitted;
+    }
+    return best ? std::optional(refit(*best, cells)) : std::nullopt;
   }
-  return best ? std::optional(refit(*best, cells)) : std::nullopt;
-}
+
+ private:
+  static std::size_t count_on(const GridPlane& plane, const std::vector<RingCell>& cells) {
+    return static_cast<std::size_t>(std::count_if(
+        cells.begin(), cells.end(), [&](const RingCell& cell) { return on_plane(plane, cell); }));
+  }
+  std::optional<RingCell> draw_near(const RingCell& cell) {
+    const auto offset = [this] { return static_cast<int>(random_.index(2 * kDrawReach + 1)) - kDrawReach; };
+    const int dx = offset();
+    const cv::Point at(static_cast<int>(cell.at.x()) + dx, static_cast<int>(cell.at.y()) + offset());
+    if (!cv::Rect({}, depth_m_.size()).contains(at) || box_.contains(at) || depth_m_(at) <= 0.0F)
+      return std::nullopt;
+    return RingCell{{static_cast<float>(at.x), static_cast<float>(at.y), 1.0F}, depth_m_(at)};
+  }
+
+  const cv::Mat1f& depth_m_;
+  const cv::Rect box_;
+  Random& random_;
+};
 
 }  // namespace
 
@@ -101,8 +127,9 @@ std::vector<GridPlane> find_background_planes(const cv::Mat1f& depth_m, const cv
   const auto min_inliers =
       std::max(kMinInliers, static_cast<std::size_t>(kMinShare * static_cast<double>(cells.size())));
   std::vector<GridPlane> planes;
+  PlaneFinder finder(depth_m, box_cells, random);
   while (planes.size() < kMaxPlanes) {
-    const std::optional<GridPlane> plane = find_plane(cells, min_inliers, random);
+    const std::optional<GridPlane> plane = finder.find(cells, min_inliers);
     if (!plane) break;
     planes.push_back(*plane);
     std::erase_if(cells, [&](const RingCell& cell) { return on_plane(*plane, cell); });

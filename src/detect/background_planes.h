@@ -18,7 +18,7 @@ struct GridPlane {
   [[nodiscard]] bool contains(int x, int y, float depth_m) const;
 };
 
-/// The planes that dominate around a person's box, at most three: the floor he stands on, the wall behind
+/// The planes that dominate around a person's box, at most four: the floor he stands on, the wall behind
 /// him, a table. What goes on inside the box is not his, also where he touches it without a step in depth.
 /// Found by RANSAC in the cells next to the box, the most dominant first.
 [[nodiscard]] std::vector<GridPlane> find_background_planes(const cv::Mat1f& depth_m,

@@ -22,7 +22,7 @@ constexpr float kStillWeight = 0.3F;  // of surfaces that have not moved
 constexpr float kKnownGain = 2.0F;
 constexpr float kMostlyKnown = 0.5F;
 constexpr float kStillCost = 0.5F;
-constexpr float kLeakCost = 1.5F;      // of an outline that goes on outside the box
+constexpr float kLeakCost = 3.0F;      // of an outline that goes on outside the box
 constexpr float kOverlapShare = 0.5F;  // of a fit: then it is the other one's person
 
 float middle_px(int cell) {

@@ -14,6 +14,7 @@ constexpr int kMinFitCells = 4;
 constexpr int kMaxMissesOfNew = 1;  // who was detected only once or twice may be a chair
 constexpr int kMaxMisses = 3;
 constexpr int kConfirmationsToTrust = 3;
+constexpr float kFurnitureShare = 0.5F;  // of a surface that stands still
 constexpr double kMinMissedS = 0.7;
 constexpr double kHiddenS = 0.7;     // behind somebody else, say
 constexpr double kUnseenBoxS = 0.2;  // a box without any depth cannot be carried
@@ -67,8 +68,9 @@ std::vector<Pair> find_pairs(std::span<const PersonBox> boxes, const std::vector
       const std::size_t smaller = std::min(fits[b].cells.size(), tracks[t].visible.size());
       const float of_surface =
           smaller == 0 ? 0.0F : static_cast<float>(shared[tracks[t].number]) / static_cast<float>(smaller);
-      const float overlap = std::max(of_surface, box_overlap(boxes[b], tracks[t].box));
-      if (overlap >= kMinOverlap) pairs.push_back({overlap, b, t});
+      const float of_box = box_overlap(boxes[b], tracks[t].box);
+      // Two people one behind the other share a box; the surface says who it is.
+      if (std::max(of_surface, of_box) >= kMinOverlap) pairs.push_back({of_surface + 0.5F * of_box, b, t});
     }
   }
   std::stable_sort(pairs.begin(), pairs.end(),
@@ -132,6 +134,15 @@ void confirm(const GridCamera& camera, const PersonBox& box, const PersonFit& fi
   track.shape = track.visible;
 }
 
+/// Whether somebody who was not detected is furniture that a fit once took for him: it stands still, and
+/// another one's box shows it or it has been missed before.
+bool is_furniture(const PersonTrack& track, const cv::Mat1b& boxed, const cv::Mat1b& still_age) {
+  if (track.misses == 0 || still_share(track.visible.cells, still_age) < kFurnitureShare) return false;
+  const auto shown = std::count_if(track.visible.cells.begin(), track.visible.cells.end(),
+                                   [&](int cell) { return boxed(cell) != 0; });
+  return track.misses > 1 || 2 * shown > static_cast<std::ptrdiff_t>(track.visible.size());
+}
+
 bool is_missed_too_often(const PersonTrack& track, double time_s) {
   const int most = track.confirmations >= kConfirmationsToTrust ? kMaxMisses : kMaxMissesOfNew;
   return track.misses > most && time_s - track.confirmed_s > kMinMissedS;
@@ -154,7 +165,11 @@ void confirm_people(const GridCamera& camera, const cv::Mat1f& depth_m, const cv
     confirm(camera, boxes[pair.box], fits[pair.box], depth_m, still_age, time_s, tracks[pair.track]);
   }
   for (std::size_t t = 0; t < track_used.size(); ++t) tracks[t].misses += track_used[t] ? 0 : 1;
-  std::erase_if(tracks, [&](const PersonTrack& track) { return is_missed_too_often(track, time_s); });
+  cv::Mat1b boxed(depth_m.size(), std::uint8_t{0});
+  for (const PersonBox& box : boxes) boxed(cells_of_box(camera, box)).setTo(1);
+  std::erase_if(tracks, [&](const PersonTrack& track) {
+    return is_missed_too_often(track, time_s) || is_furniture(track, boxed, still_age);
+  });
   for (std::size_t b = 0; b < boxes.size() && tracks.size() < kMaxPeople; ++b) {
     if (box_used[b]) continue;
     PersonTrack track;

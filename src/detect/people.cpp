@@ -181,10 +181,12 @@ cv::Mat People::excluded() const {
   return mask;
 }
 
-void People::end(const SE3& motion) {
+void People::end(const SE3& motion, bool pose_known) {
   counts_.keypoints += last_candidates_;
   counts_.removed_keypoints += last_removed_;
-  if (active_ && uses_tracks()) tracks_.end_frame(motion);
+  if (!active_ || !uses_tracks()) return;
+  const auto scope = timer_.time("people: look for movers");
+  tracks_.end_frame(motion, pose_known);
 }
 
 void People::finish() {

@@ -43,8 +43,8 @@ class People {
   [[nodiscard]] int missing_keypoints(const std::vector<std::uint8_t>& keep);
   /// Where the people are now, as a mask for FrameFeaturesBuilder::extend.
   [[nodiscard]] cv::Mat excluded() const;
-  /// motion: as it was found in the end.
-  void end(const SE3& motion);
+  /// motion: as it was found in the end; pose_known: or only expected.
+  void end(const SE3& motion, bool pose_known);
 
   /// No more frames: see DetectorThread::finish().
   void finish();

@@ -72,9 +72,8 @@ class Finder {
   Finder(const FrameStep& step, const Prediction& prediction)
       : step_(step), prediction_(prediction), taken_(step.depth_m.size(), std::uint8_t{0}) {}
 
-  GridSurface find(std::uint8_t index, const GridSurface& predicted, bool walks) {
+  GridSurface find(std::uint8_t index, const GridSurface& predicted) {
     found_.clear();
-    walks_ = walks;
     for (const int cell : predicted.cells) {
       if (prediction_.person(cell) == index && taken_(cell) == 0 && agrees(cell)) take(cell);
     }
@@ -93,11 +92,10 @@ class Finder {
   [[nodiscard]] bool agrees(int cell) const {
     const float depth_m = step_.depth_m(cell);
     if (depth_m <= 0.0F) return false;
-    if (walks_ && is_still(cell)) return false;
+    if (is_still(cell)) return false;
     return std::abs(depth_m - prediction_.person_m(cell)) < agreement_m(depth_m, step_.dt_s);
   }
   [[nodiscard]] bool is_still(int cell) const { return step_.still_age(cell) >= StillSurface::kStillAge; }
-  [[nodiscard]] bool has_arrived(int cell) const { return step_.still_age(cell) < StillSurface::kUnknownAge; }
   void take(int cell) {
     taken_(cell) = 1;
     found_.add(cell, step_.depth_m(cell));
@@ -113,7 +111,7 @@ class Finder {
       const float depth_m = step_.depth_m(next);
       if (depth_m <= 0.0F || std::abs(depth_m - step_.depth_m(cell)) > connected_step_m(depth_m)) continue;
       const std::uint8_t other = prediction_.person(next);
-      if ((other != 0 && other != index) || !has_arrived(there)) continue;
+      if ((other != 0 && other != index) || is_still(there)) continue;
       take(there);
     }
   }
@@ -123,7 +121,6 @@ class Finder {
   cv::Mat1b taken_;
   GridSurface found_;
   std::size_t n_agreeing_ = 0;
-  bool walks_ = false;
 };
 
 void enter_people(const std::vector<GridSurface>& moved, Prediction& prediction) {
@@ -186,7 +183,7 @@ void carry_people(const GridCamera& camera, const FrameStep& step, std::vector<P
   });
   Finder finder(step, prediction);
   for (const std::size_t t : nearest_first) {
-    GridSurface found = finder.find(static_cast<std::uint8_t>(t + 1), moved[t], is_walking(tracks[t]));
+    GridSurface found = finder.find(static_cast<std::uint8_t>(t + 1), moved[t]);
     settle(step, moved[t], std::move(found), finder.n_agreeing(), prediction, tracks[t]);
   }
 }

@@ -144,44 +144,60 @@ bool is_furniture(const PersonTrack& track, const cv::Mat1b& boxed, const cv::Ma
 }
 
 bool is_missed_too_often(const PersonTrack& track, double time_s) {
+  if (track.confirmations == 0) return false;  // what moves need not be a person
   const int most = track.confirmations >= kConfirmationsToTrust ? kMaxMisses : kMaxMissesOfNew;
   return track.misses > most && time_s - track.confirmed_s > kMinMissedS;
 }
 
 }  // namespace
 
-void confirm_people(const GridCamera& camera, const cv::Mat1f& depth_m, const cv::Mat1b& still_age,
+void confirm_people(const GridCamera& camera, const cv::Mat1f& depth_m, const StillSurface& still,
                     double time_s, std::span<const PersonBox> boxes, std::span<const DepthKeypoint> keypoints,
                     Random& random, std::vector<PersonTrack>& tracks) {
   const cv::Mat1b labels = paint_people(tracks, depth_m.size());
   const std::vector<PersonFit> fits =
-      fit_people(camera, {depth_m, labels, still_age}, recognise(boxes, tracks), keypoints, random);
+      fit_people(camera, {depth_m, labels, still.free_age}, recognise(boxes, tracks), keypoints, random);
   std::vector<bool> box_used(boxes.size(), false);
   std::vector<bool> track_used(tracks.size(), false);
   for (const Pair& pair : find_pairs(boxes, fits, tracks, labels)) {
     if (box_used[pair.box] || track_used[pair.track]) continue;
     box_used[pair.box] = true;
     track_used[pair.track] = true;
-    confirm(camera, boxes[pair.box], fits[pair.box], depth_m, still_age, time_s, tracks[pair.track]);
+    confirm(camera, boxes[pair.box], fits[pair.box], depth_m, still.age, time_s, tracks[pair.track]);
   }
   for (std::size_t t = 0; t < track_used.size(); ++t) tracks[t].misses += track_used[t] ? 0 : 1;
   cv::Mat1b boxed(depth_m.size(), std::uint8_t{0});
   for (const PersonBox& box : boxes) boxed(cells_of_box(camera, box)).setTo(1);
   std::erase_if(tracks, [&](const PersonTrack& track) {
-    return is_missed_too_often(track, time_s) || is_furniture(track, boxed, still_age);
+    return is_missed_too_often(track, time_s) || is_furniture(track, boxed, still.age);
   });
   for (std::size_t b = 0; b < boxes.size() && tracks.size() < kMaxPeople; ++b) {
     if (box_used[b]) continue;
     PersonTrack track;
     track.number = free_number(tracks);
     track.seen_s = time_s;
-    confirm(camera, boxes[b], fits[b], depth_m, still_age, time_s, track);
+    confirm(camera, boxes[b], fits[b], depth_m, still.age, time_s, track);
     tracks.push_back(std::move(track));
   }
 }
 
-void forget_people(double time_s, std::vector<PersonTrack>& tracks) {
-  std::erase_if(tracks, [time_s](const PersonTrack& track) {
+void add_blobs(const std::vector<GridSurface>& blobs, double time_s, std::vector<PersonTrack>& tracks) {
+  for (const GridSurface& blob : blobs) {
+    if (tracks.size() >= kMaxPeople) return;
+    PersonTrack track;
+    track.number = free_number(tracks);
+    track.visible = blob;
+    track.shape = blob;
+    track.confirmed_s = time_s;
+    track.seen_s = time_s;
+    tracks.push_back(std::move(track));
+  }
+}
+
+void forget_people(double time_s, const cv::Mat1b& still_age, std::vector<PersonTrack>& tracks) {
+  std::erase_if(tracks, [&](const PersonTrack& track) {
+    if (track.confirmations == 0 && still_share(track.visible.cells, still_age) > kFurnitureShare)
+      return true;
     const double patience_s = track.shape.size() == 0 ? kUnseenBoxS : kHiddenS;
     return time_s - track.seen_s > patience_s || time_s - track.confirmed_s > kUndetectedS;
   });

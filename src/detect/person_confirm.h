@@ -6,6 +6,7 @@
 #include "detect/grid_camera.h"
 #include "detect/person_fit.h"
 #include "detect/person_track.h"
+#include "detect/still_surface.h"
 #include "util/random.h"
 
 namespace cpslam {
@@ -14,12 +15,17 @@ namespace cpslam {
 /// depths (fit_people), matched to the people they overlap most, and start a new person where they match
 /// none. Who has been missed by several detections in a row, and for some time, is forgotten: a missed
 /// detection (someone tilted, half out of the image) does not free his keypoints at once.
-void confirm_people(const GridCamera& camera, const cv::Mat1f& depth_m, const cv::Mat1b& still_age,
+void confirm_people(const GridCamera& camera, const cv::Mat1f& depth_m, const StillSurface& still,
                     double time_s, std::span<const PersonBox> boxes, std::span<const DepthKeypoint> keypoints,
                     Random& random, std::vector<PersonTrack>& tracks);
 
+/// Takes the surfaces in as people nobody has detected yet, until a detection confirms them, or they stand
+/// still.
+void add_blobs(const std::vector<GridSurface>& blobs, double time_s, std::vector<PersonTrack>& tracks);
+
 /// Forgets who has not been found again for some time, has left the image, or has not been detected for long
-/// (the detector may have died).
-void forget_people(double time_s, std::vector<PersonTrack>& tracks);
+/// (the detector may have died); and what moved without being detected as
+/// a person once it stands still.
+void forget_people(double time_s, const cv::Mat1b& still_age, std::vector<PersonTrack>& tracks);
 
 }  // namespace cpslam

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "detect/moving_blobs.h"
 #include "detect/person_carry.h"
 #include "detect/person_confirm.h"
 
@@ -20,6 +21,7 @@ void PersonTracks::begin_frame(std::uint64_t frame, double time_s, const cv::Mat
   state.this_from_previous = this_from_previous;
   frames_.push_back(std::move(state));
   forget_old();
+  carry_still_surface(frames_.size() - 1);
   carry_into(frames_.size() - 1);
 }
 
@@ -35,33 +37,51 @@ void PersonTracks::add_detections(const Detections& detections) {
   found->boxes = detections.boxes;
   found->detected = true;
   apply_boxes(*found);
+  if (found + 1 != frames_.end()) find_blobs(*found);
   for (auto i = static_cast<std::size_t>(found - frames_.begin()) + 1; i < frames_.size(); ++i) {
     carry_into(i);
     follow_into(i);
     if (frames_[i].detected) apply_boxes(frames_[i]);
+    if (i + 1 < frames_.size()) find_blobs(frames_[i]);
   }
 }
 
-void PersonTracks::end_frame(const SE3& this_from_previous) {
-  frames_.back().this_from_previous = this_from_previous;
+void PersonTracks::end_frame(const SE3& this_from_previous, bool pose_known) {
+  FrameState& state = frames_.back();
+  state.this_from_previous = this_from_previous;
+  state.pose_known = pose_known;
+  carry_still_surface(frames_.size() - 1);
+  find_blobs(state);
+}
+
+void PersonTracks::carry_still_surface(std::size_t index) {
+  FrameState& state = frames_[index];
+  if (index == 0) {
+    state.still = StillSurface::begin(state.depth_m);
+  } else {
+    state.still = frames_[index - 1].still.carry(camera_, state.depth_m, state.this_from_previous);
+  }
+}
+
+void PersonTracks::find_blobs(FrameState& state) {
+  // With a wrong motion everything seems to move.
+  if (!state.pose_known) return;
+  add_blobs(
+      find_moving_blobs(state.depth_m, state.still.age, paint_people(state.tracks, state.depth_m.size())),
+      state.time_s, state.tracks);
 }
 
 void PersonTracks::carry_into(std::size_t index) {
   FrameState& state = frames_[index];
   state.carried.clear();
-  if (index == 0) {
-    state.still = StillSurface::begin(state.depth_m);
-  } else {
+  if (index > 0) {
     const FrameState& previous = frames_[index - 1];
-    if (state.still.age.empty()) {
-      state.still = previous.still.carry(camera_, state.depth_m, state.this_from_previous);
-    }
     state.carried = previous.tracks;
     carry_people(camera_,
-                 {state.depth_m, state.still.age, state.this_from_previous, state.time_s,
+                 {state.depth_m, state.still.free_age, state.this_from_previous, state.time_s,
                   state.time_s - previous.time_s},
                  state.carried);
-    forget_people(state.time_s, state.carried);
+    forget_people(state.time_s, state.still.age, state.carried);
   }
   state.tracks = state.carried;
 }
@@ -78,8 +98,8 @@ void PersonTracks::follow_into(std::size_t index) {
 
 void PersonTracks::apply_boxes(FrameState& state) {
   state.tracks = state.carried;
-  confirm_people(camera_, state.depth_m, state.still.age, state.time_s, state.boxes,
-                 state.keypoints.keypoints, random_, state.tracks);
+  confirm_people(camera_, state.depth_m, state.still, state.time_s, state.boxes, state.keypoints.keypoints,
+                 random_, state.tracks);
 }
 
 void PersonTracks::forget_old() {

@@ -32,7 +32,8 @@ class PersonTracks {
   void set_keypoints(FlowKeypoints keypoints);
   /// Ignored when the frame is further back than kHistoryS or came before the first.
   void add_detections(const Detections& detections);
-  void end_frame(const SE3& this_from_previous);
+  /// pose_known: else the motion is only what was expected.
+  void end_frame(const SE3& this_from_previous, bool pose_known);
 
   [[nodiscard]] const std::vector<PersonTrack>& tracks() const { return frames_.back().tracks; }
   /// The number of the person at each cell of the grid, 0 where there is none.
@@ -52,13 +53,16 @@ class PersonTracks {
     SE3 this_from_previous;
     FlowKeypoints keypoints;
     std::vector<PersonBox> boxes;
-    bool detected = false;             // boxes are this frame's
+    bool detected = false;  // boxes are this frame's
+    bool pose_known = false;
     std::vector<PersonTrack> carried;  // before its boxes
     std::vector<PersonTrack> tracks;   // after
   };
   void carry_into(std::size_t index);
   void follow_into(std::size_t index);
   void apply_boxes(FrameState& state);
+  void carry_still_surface(std::size_t index);
+  static void find_blobs(FrameState& state);
   void forget_old();
 
   GridCamera camera_;

@@ -11,7 +11,7 @@ namespace cpslam {
 struct SceneEvidence {
   const cv::Mat1f& depth_m;
   const cv::Mat1b& people;     ///< paint_people of those carried into the frame
-  const cv::Mat1b& still_age;  ///< StillSurface::age
+  const cv::Mat1b& still_age;  ///< StillSurface::free_age
 };
 
 /// A person's box, and what is known of him if he was carried into the frame.

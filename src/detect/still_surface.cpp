@@ -9,7 +9,8 @@ namespace cpslam {
 namespace {
 
 constexpr int kOldest = 250;
-constexpr float kGain = 0.3F;  // of a reading on the running mean
+constexpr float kArrivalM = 0.1F;  // before what was known
+constexpr float kGain = 0.3F;      // of a reading on the running mean
 
 }  // namespace
 
@@ -19,17 +20,21 @@ float still_tolerance_m(float depth_m) {
 
 namespace {
 
+std::uint8_t one_older(std::uint8_t age) {
+  return static_cast<std::uint8_t>(std::min(kOldest, age + 1));
+}
+
 /// Age of a surface next to a cell that has long stood still and is where the reading says, 0 if there is
 /// none: at an edge in depth the reading of a cell jumps from one side to the other.
 std::uint8_t age_beside(const StillSurface& expected, cv::Point at, float read_m) {
-  constexpr std::uint8_t kEstablished = 20;
-  const cv::Rect around = cv::Rect(at.x - 1, at.y - 1, 3, 3) & cv::Rect({}, expected.age.size());
+  constexpr std::uint8_t kEstablished = 10;
+  const cv::Rect around = cv::Rect(at.x - 1, at.y - 1, 3, 3) & cv::Rect({}, expected.free_age.size());
   for (int y = around.y; y < around.br().y; ++y) {
     for (int x = around.x; x < around.br().x; ++x) {
       const float known_m = expected.depth_m(y, x);
-      if (known_m > 0.0F && expected.age(y, x) >= kEstablished &&
+      if (known_m > 0.0F && expected.free_age(y, x) >= kEstablished &&
           std::abs(known_m - read_m) < still_tolerance_m(known_m))
-        return expected.age(y, x);
+        return expected.free_age(y, x);
     }
   }
   return 0;
@@ -38,13 +43,18 @@ std::uint8_t age_beside(const StillSurface& expected, cv::Point at, float read_m
 }  // namespace
 
 StillSurface StillSurface::begin(const cv::Mat1f& depth_m) {
-  return {depth_m, cv::Mat1b(depth_m.size(), kUnknownAge)};
+  return {depth_m, cv::Mat1b(depth_m.size(), kUnknownAge), cv::Mat1b(depth_m.size(), kUnknownAge)};
+}
+
+void StillSurface::claim(const cv::Mat1b& people) {
+  free_age.setTo(0, people);
 }
 
 StillSurface StillSurface::carry(const GridCamera& camera, const cv::Mat1f& next_depth_m,
                                  const SE3& next_from_this) const {
   const FloatTransform move(next_from_this);
-  StillSurface next{cv::Mat1f(depth_m.size(), 0.0F), cv::Mat1b(depth_m.size(), kUnknownAge)};
+  const cv::Size size = depth_m.size();
+  StillSurface next{cv::Mat1f(size, 0.0F), cv::Mat1b(size, kUnknownAge), cv::Mat1b(size, kUnknownAge)};
   for (int cell = 0; cell < camera.n_cells(); ++cell) {
     if (depth_m(cell) <= 0.0F) continue;
     const Eigen::Vector3f moved = move * camera.point(cell, depth_m(cell));
@@ -52,8 +62,9 @@ StillSurface StillSurface::carry(const GridCamera& camera, const cv::Mat1f& next
     if (there < 0 || (next.depth_m(there) > 0.0F && next.depth_m(there) <= moved.z())) continue;
     next.depth_m(there) = moved.z();
     next.age(there) = age(cell);
+    next.free_age(there) = free_age(cell);
   }
-  const StillSurface expected{next.depth_m.clone(), next.age.clone()};
+  const StillSurface expected{next.depth_m.clone(), next.age, next.free_age.clone()};
   for (int cell = 0; cell < camera.n_cells(); ++cell) {
     const float read_m = next_depth_m(cell);
     if (read_m <= 0.0F) continue;  // what was expected there may still be there
@@ -61,12 +72,14 @@ StillSurface StillSurface::carry(const GridCamera& camera, const cv::Mat1f& next
     const float nearer_m = known_m - read_m;
     if (known_m > 0.0F && std::abs(nearer_m) < still_tolerance_m(known_m)) {
       known_m -= kGain * nearer_m;
-      next.age(cell) = static_cast<std::uint8_t>(std::min(kOldest, next.age(cell) + 1));
+      next.age(cell) = one_older(next.age(cell));
+      next.free_age(cell) = one_older(next.free_age(cell));
       continue;
     }
     const std::uint8_t beside = age_beside(expected, {cell % depth_m.cols, cell / depth_m.cols}, read_m);
-    const bool arrived = known_m > 0.0F && nearer_m > 0.0F;
+    const bool arrived = known_m > 0.0F && nearer_m > kArrivalM;
     next.age(cell) = beside > 0 ? beside : (arrived ? std::uint8_t{0} : kUnknownAge);
+    next.free_age(cell) = next.age(cell);
     known_m = read_m;
   }
   return next;

@@ -13,6 +13,8 @@ struct StillSurface {
   cv::Mat1f
       depth_m;    ///< of the surface, a running mean in which somebody who walks to the camera falls behind
   cv::Mat1b age;  ///< frames for which it has been found where the camera's motion puts it; up to 250
+  /// The same, but begun anew while it belongs to somebody: a torso that passes by looks still.
+  cv::Mat1b free_age;
 
   /// Nothing known yet.
   static StillSurface begin(const cv::Mat1f& depth_m);
@@ -20,6 +22,9 @@ struct StillSurface {
   /// where nothing was known, or what was uncovered lies behind, at kUnknownAge.
   [[nodiscard]] StillSurface carry(const GridCamera& camera, const cv::Mat1f& next_depth_m,
                                    const SE3& next_from_this) const;
+
+  /// What belongs to somebody (people: paint_people, of the same frame) is not background.
+  void claim(const cv::Mat1b& people);
 
   static constexpr std::uint8_t kUnknownAge = 8;  ///< what is younger has arrived
   static constexpr std::uint8_t kStillAge = 12;   ///< from this age on it counts as still

@@ -65,7 +65,7 @@ class System::Impl {
       people_.begin(frame, tracking_.expected_motion(interval_s));
       std::shared_ptr<const FrameFeatures> features = static_features(frame, depth_time_s - frame.time_s);
       result = tracking_.track(frame.time_s, std::move(features), mapper_load());
-      people_.end(tracking_.expected_motion(interval_s));
+      people_.end(tracking_.expected_motion(interval_s), result.state == TrackingState::kTracked);
     }
     count(result.state);
     // After the clock has stopped: mapping in this thread, or waiting for the mapper, is not tracking.

@@ -12,9 +12,9 @@
 namespace cpslam {
 namespace {
 
-constexpr int kGrowthCells = 2;      // an outline moves no further between two frames, once carried
-constexpr float kFoundShare = 0.3F;  // of the predicted surface: less, and something hides the person
-constexpr float kDepthGain = 0.3F;   // of the difference between found and predicted depth, on the velocity
+constexpr int kGrowthCells = 2;        // an outline moves no further between two frames, once carried
+constexpr float kFoundShare = 0.3F;    // of the predicted surface: less, and something hides the person
+constexpr float kDepthShiftM = 0.02F;  // uncertainty of the median between found and predicted depths
 constexpr std::size_t kMinCells = 6;
 constexpr double kMaxStepS = 0.5;  // velocities predict nothing over a longer gap
 
@@ -154,7 +154,11 @@ void settle(const FrameStep& step, const GridSurface& moved, GridSurface found, 
     }
     const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
     std::nth_element(off.begin(), middle, off.end());
-    track.velocity_m_per_s.z() += kDepthGain * *middle / static_cast<float>(step.dt_s);
+    const float sigma = kDepthShiftM / static_cast<float>(step.dt_s);
+    Eigen::Vector3f measured = track.velocity_m_per_s;
+    measured.z() += *middle / static_cast<float>(step.dt_s);
+    constexpr float kUnmeasured = 1e3F;
+    measure_velocity(measured, {kUnmeasured, kUnmeasured, sigma}, track);
   }
   track.shape = track.visible;
 }
@@ -170,6 +174,7 @@ void carry_people(const GridCamera& camera, const FrameStep& step, std::vector<P
   std::vector<GridSurface> moved;
   for (PersonTrack& track : tracks) {
     track.velocity_m_per_s = move.rotation * track.velocity_m_per_s;
+    age_velocity(step.dt_s, track);
     const auto dt_s = static_cast<float>(std::min(step.dt_s, kMaxStepS));
     moved.push_back(move_surface(camera, move, track.velocity_m_per_s * dt_s, track.shape));
     carry_box(track.shape, moved.back(), size.width, track.box);

@@ -92,16 +92,17 @@ float still_share(const std::vector<int>& cells, const cv::Mat1b& still_age) {
   return static_cast<float>(still) / static_cast<float>(std::max<std::size_t>(1, cells.size()));
 }
 
-/// Whether the fit found somebody or something else than who was carried here: then the one who moves is
-/// right.
-bool is_mistaken(const PersonFit& fit, const PersonTrack& track, const cv::Mat1b& still_age) {
+/// Whether the fit found somebody or something else than who was carried here, who suits the box better.
+bool is_mistaken(const PersonFit& fit, const PersonTrack& track, const cv::Rect& box_cells, int columns) {
   if (track.confirmations < kConfirmationsToTrust || track.visible.size() < kMinFitCells) return false;
   const auto shared = std::count_if(track.visible.cells.begin(), track.visible.cells.end(), [&](int cell) {
     return std::binary_search(fit.cells.begin(), fit.cells.end(), cell);
   });
   const auto smaller = static_cast<float>(std::min(fit.cells.size(), track.visible.size()));
   if (static_cast<float>(shared) >= kMinOverlap * smaller) return false;
-  return still_share(track.visible.cells, still_age) < still_share(fit.cells, still_age);
+  std::vector<int> carried = track.visible.cells;
+  std::sort(carried.begin(), carried.end());
+  return outline_match(carried, columns, box_cells) > fit.match;
 }
 
 /// The fit, and what was carried to the box or close to it and does not stand still: detectors' boxes cut off
@@ -128,7 +129,8 @@ void confirm(const GridCamera& camera, const PersonBox& box, const PersonFit& fi
   track.confirmed_s = time_s;
   ++track.confirmations;
   track.misses = 0;
-  if (fit.cells.size() < kMinFitCells || is_mistaken(fit, track, still_age)) return;
+  if (fit.cells.size() < kMinFitCells || is_mistaken(fit, track, cells_of_box(camera, box), depth_m.cols))
+    return;
   track.seen_s = time_s;
   merge(fit, cells_of_box(camera, box), depth_m, still_age, track);
   track.shape = track.visible;

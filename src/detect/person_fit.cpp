@@ -35,21 +35,6 @@ bool inside(const PersonBox& box, const DepthKeypoint& k) {
   return x >= box.x && y >= box.y && x < box.x + box.width && y < box.y + box.height;
 }
 
-/// Overlap of the box with the box around the cells.
-float outline_match(const std::vector<int>& cells, int columns, const cv::Rect& box) {
-  if (cells.empty()) return 0.0F;
-  int left = columns, right = -1;
-  for (const int cell : cells) {
-    left = std::min(left, cell % columns);
-    right = std::max(right, cell % columns);
-  }
-  const int top = cells.front() / columns;
-  const int bottom = cells.back() / columns;
-  const cv::Rect outline(left, top, right - left + 1, bottom - top + 1);
-  const auto common = static_cast<float>((outline & box).area());
-  return common / (static_cast<float>(outline.area() + box.area()) - common);
-}
-
 /// One call of fit_people: the grid, and what is taken by the people found so far.
 class Fitter {
  public:
@@ -154,6 +139,20 @@ class Fitter {
 };
 
 }  // namespace
+
+float outline_match(const std::vector<int>& cells, int columns, const cv::Rect& box_cells) {
+  if (cells.empty()) return 0.0F;
+  int left = columns, right = -1;
+  for (const int cell : cells) {
+    left = std::min(left, cell % columns);
+    right = std::max(right, cell % columns);
+  }
+  const int top = cells.front() / columns;
+  const int bottom = cells.back() / columns;
+  const cv::Rect outline(left, top, right - left + 1, bottom - top + 1);
+  const auto common = static_cast<float>((outline & box_cells).area());
+  return common / (static_cast<float>(outline.area() + box_cells.area()) - common);
+}
 
 cv::Rect cells_of_box(const GridCamera& camera, const PersonBox& box) {
   const auto cell = [](double px, int most) {

@@ -34,6 +34,10 @@ struct PersonFit {
                                                 std::span<const KnownBox> boxes,
                                                 std::span<const DepthKeypoint> keypoints, Random& random);
 
+/// How well a surface ends where a box ends: the overlap of the box with the one around the cells
+/// (ascending).
+[[nodiscard]] float outline_match(const std::vector<int>& cells, int columns, const cv::Rect& box_cells);
+
 /// Cells of the grid that a box covers, at least one; empty when it lies outside the image.
 [[nodiscard]] cv::Rect cells_of_box(const GridCamera& camera, const PersonBox& box);
 

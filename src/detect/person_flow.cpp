@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "camera/depth_noise.h"
+
 namespace cpslam {
 namespace {
 
@@ -12,8 +14,8 @@ constexpr float kDepthWindowM = 0.4F;
 constexpr int kMaxDistance = 64;  // of descriptors, bits
 constexpr float kRatio = 0.85F;   // to the second best
 constexpr std::size_t kMinMatches = 4;
-constexpr float kAgreeM = 0.06F;  // with the median displacement
-constexpr float kGain = 0.5F;     // of a new measurement against the known velocity
+constexpr float kAgreeM = 0.06F;     // with the median displacement
+constexpr float kKeypointPx = 1.0F;  // how well a keypoint is localised
 constexpr float kMaxSpeedMPerS = 4.0F;
 
 float median(std::vector<float>& values) {
@@ -80,17 +82,29 @@ class Flow {
   std::vector<Eigen::Vector3f> points_;
 };
 
-void correct_velocity(const std::vector<Eigen::Vector3f>& displacements, double dt_s, PersonTrack& track) {
-  if (displacements.size() < kMinMatches) return;
-  const Eigen::Vector3f middle = median(displacements);
+/// Displacements of a person's keypoints, and the sum of their depths.
+struct Displacements {
+  std::vector<Eigen::Vector3f> moved;
+  float depth_sum_m = 0.0F;
+};
+
+void correct_velocity(const Displacements& displacements, float focal_px, double dt_s, PersonTrack& track) {
+  const auto n = displacements.moved.size();
+  if (n < kMinMatches) return;
+  const Eigen::Vector3f middle = median(displacements.moved);
+  const float depth_m = displacements.depth_sum_m / static_cast<float>(n);
+  const auto noise_m = static_cast<float>(structured_light_sigma_m(static_cast<double>(depth_m)));
   const auto agreeing =
-      std::count_if(displacements.begin(), displacements.end(),
-                    [&middle](const Eigen::Vector3f& d) { return (d - middle).norm() < kAgreeM; });
-  if (2 * agreeing < static_cast<std::ptrdiff_t>(displacements.size())) return;
-  const Eigen::Vector3f measured = middle / static_cast<float>(dt_s);
+      std::count_if(displacements.moved.begin(), displacements.moved.end(),
+                    [&](const Eigen::Vector3f& d) { return (d - middle).norm() < kAgreeM + 2.0F * noise_m; });
+  if (2 * agreeing < static_cast<std::ptrdiff_t>(n)) return;
+  const auto seconds = static_cast<float>(dt_s);
+  const Eigen::Vector3f measured = middle / seconds;
   if (measured.norm() > kMaxSpeedMPerS) return;
-  track.velocity_m_per_s += (track.velocity_known ? kGain : 1.0F) * (measured - track.velocity_m_per_s);
-  track.velocity_known = true;
+  // A median is some 1.25 times as uncertain as a mean; both frames err.
+  const float spread = 1.25F * std::sqrt(2.0F / static_cast<float>(agreeing)) / seconds;
+  const float across = spread * kKeypointPx * depth_m / focal_px;
+  measure_velocity(measured, {across, across, spread * noise_m}, track);
 }
 
 }  // namespace
@@ -101,7 +115,7 @@ void follow_keypoints(const GridCamera& camera, const FlowKeypoints& previous,
   if (tracks.empty() || dt_s <= 0.0) return;
   const Flow flow(camera, current);
   const FloatTransform move(this_from_previous);
-  std::vector<std::vector<Eigen::Vector3f>> displacements(tracks.size());
+  std::vector<Displacements> displacements(tracks.size());
   for (std::size_t i = 0; i < previous.keypoints.size(); ++i) {
     const DepthKeypoint& k = previous.keypoints[i];
     const int cell = k.depth_m > 0.0F ? camera.cell_of_pixel(k.x, k.y) : -1;
@@ -114,9 +128,12 @@ void follow_keypoints(const GridCamera& camera, const FlowKeypoints& previous,
     if (expected.z() <= 0.1F) continue;
     const int match = flow.find(expected, previous.descriptors[i]);
     if (match < 0) continue;
-    displacements[static_cast<std::size_t>(track - tracks.begin())].push_back(flow.point(match) - unmoved);
+    Displacements& his = displacements[static_cast<std::size_t>(track - tracks.begin())];
+    his.moved.emplace_back(flow.point(match) - unmoved);
+    his.depth_sum_m += k.depth_m;
   }
-  for (std::size_t t = 0; t < tracks.size(); ++t) correct_velocity(displacements[t], dt_s, tracks[t]);
+  for (std::size_t t = 0; t < tracks.size(); ++t)
+    correct_velocity(displacements[t], static_cast<float>(camera.camera().fx()), dt_s, tracks[t]);
 }
 
 }  // namespace cpslam

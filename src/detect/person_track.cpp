@@ -1,6 +1,28 @@
 #include "detect/person_track.h"
 
+#include <cmath>
+
 namespace cpslam {
+
+void age_velocity(double dt_s, PersonTrack& track) {
+  constexpr float kAccelerationMPerS2 = 3.0F;
+  const float change = kAccelerationMPerS2 * static_cast<float>(dt_s);
+  track.velocity_variance.array() += change * change;
+}
+
+void measure_velocity(const Eigen::Vector3f& measured_m_per_s, const Eigen::Vector3f& sigma_m_per_s,
+                      PersonTrack& track) {
+  const Eigen::Array3f gain =
+      track.velocity_variance.array() / (track.velocity_variance.array() + sigma_m_per_s.array().square());
+  track.velocity_m_per_s.array() += gain * (measured_m_per_s - track.velocity_m_per_s).array();
+  track.velocity_variance.array() *= 1.0F - gain;
+}
+
+bool is_walking(const PersonTrack& track) {
+  constexpr float kWalkingMPerS = 0.25F;
+  const float speed = track.velocity_m_per_s.norm();
+  return speed > kWalkingMPerS && speed > 2.0F * std::sqrt(track.velocity_variance.maxCoeff());
+}
 
 cv::Mat1b paint_people(const std::vector<PersonTrack>& tracks, cv::Size grid_size) {
   cv::Mat1b labels(grid_size, std::uint8_t{0});

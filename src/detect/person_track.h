@@ -31,7 +31,8 @@ struct PersonTrack {
   GridSurface visible;      ///< what of him is seen
   GridSurface shape;        ///< what is carried on: visible, or where he must be while something hides him
   Eigen::Vector3f velocity_m_per_s = Eigen::Vector3f::Zero();  ///< against the room, in the camera's axes
-  bool velocity_known = false;
+  /// Its variance, (m/s)^2 for each axis; people start to walk within a second.
+  Eigen::Vector3f velocity_variance = Eigen::Vector3f::Constant(1.0F);
   PersonBox box;             ///< the last detection's, carried along
   double confirmed_s = 0.0;  ///< stamp of the last image in which he was detected
   double seen_s = 0.0;       ///< stamp of the last frame in which his surface was found again
@@ -39,11 +40,14 @@ struct PersonTrack {
   int misses = 0;  ///< detections without him since
 };
 
+/// What becomes of the velocity's variance in dt_s.
+void age_velocity(double dt_s, PersonTrack& track);
+/// Takes a measured velocity with its standard deviations into the track, axis by axis (a scalar Kalman
+/// filter).
+void measure_velocity(const Eigen::Vector3f& measured_m_per_s, const Eigen::Vector3f& sigma_m_per_s,
+                      PersonTrack& track);
 /// Whether he certainly moves.
-[[nodiscard]] inline bool is_walking(const PersonTrack& track) {
-  constexpr float kWalkingMPerS = 0.25F;
-  return track.velocity_known && track.velocity_m_per_s.norm() > kWalkingMPerS;
-}
+[[nodiscard]] bool is_walking(const PersonTrack& track);
 
 /// The number of the person at each cell, 0 where there is none.
 [[nodiscard]] cv::Mat1b paint_people(const std::vector<PersonTrack>& tracks, cv::Size grid_size);

@@ -37,12 +37,13 @@ void PersonTracks::add_detections(const Detections& detections) {
   found->boxes = detections.boxes;
   found->detected = true;
   apply_boxes(*found);
-  if (found + 1 != frames_.end()) find_blobs(*found);
   for (auto i = static_cast<std::size_t>(found - frames_.begin()) + 1; i < frames_.size(); ++i) {
+    // Whom the boxes showed was background before.
+    settle(frames_[i - 1]);
+    carry_still_surface(i);
     carry_into(i);
     follow_into(i);
     if (frames_[i].detected) apply_boxes(frames_[i]);
-    if (i + 1 < frames_.size()) find_blobs(frames_[i]);
   }
 }
 
@@ -51,7 +52,7 @@ void PersonTracks::end_frame(const SE3& this_from_previous, bool pose_known) {
   state.this_from_previous = this_from_previous;
   state.pose_known = pose_known;
   carry_still_surface(frames_.size() - 1);
-  find_blobs(state);
+  settle(state);
 }
 
 void PersonTracks::carry_still_surface(std::size_t index) {
@@ -63,12 +64,13 @@ void PersonTracks::carry_still_surface(std::size_t index) {
   }
 }
 
-void PersonTracks::find_blobs(FrameState& state) {
+void PersonTracks::settle(FrameState& state) {
+  const cv::Size size = state.depth_m.size();
   // With a wrong motion everything seems to move.
-  if (!state.pose_known) return;
-  add_blobs(
-      find_moving_blobs(state.depth_m, state.still.age, paint_people(state.tracks, state.depth_m.size())),
-      state.time_s, state.tracks);
+  if (state.pose_known)
+    add_blobs(find_moving_blobs(state.depth_m, state.still.age, paint_people(state.tracks, size)),
+              state.time_s, state.tracks);
+  state.still.claim(paint_people(state.tracks, size));
 }
 
 void PersonTracks::carry_into(std::size_t index) {

@@ -19,6 +19,8 @@ constexpr double kMinMissedS = 0.7;
 constexpr double kHiddenS = 0.7;     // behind somebody else, say
 constexpr double kUnseenBoxS = 0.2;  // a box without any depth cannot be carried
 constexpr double kUndetectedS = 5.0;
+constexpr double kBodyWidthM = 0.5;
+constexpr double kMostFrames = 60.0;
 constexpr std::size_t kMaxPeople = 254;
 
 double area(const PersonBox& box) {
@@ -193,6 +195,22 @@ void add_blobs(const std::vector<GridSurface>& blobs, double time_s, std::vector
     track.confirmed_s = time_s;
     track.seen_s = time_s;
     tracks.push_back(std::move(track));
+  }
+}
+
+void drop_what_stays(const StillSurface& still, double dt_s, std::vector<PersonTrack>& tracks) {
+  for (PersonTrack& track : tracks) {
+    if (!is_walking(track) || dt_s <= 0.0) continue;
+    const double passing_s = kBodyWidthM / static_cast<double>(track.velocity_m_per_s.norm());
+    const double limit = std::clamp(passing_s / dt_s, double{StillSurface::kStillAge}, kMostFrames);
+    GridSurface moving;
+    for (std::size_t i = 0; i < track.visible.size(); ++i) {
+      if (still.age(track.visible.cells[i]) <= limit)
+        moving.add(track.visible.cells[i], track.visible.depth_m[i]);
+    }
+    const bool was_shape = track.shape.size() == track.visible.size();
+    track.visible = std::move(moving);
+    if (was_shape) track.shape = track.visible;
   }
 }
 

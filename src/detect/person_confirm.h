@@ -23,6 +23,10 @@ void confirm_people(const GridCamera& camera, const cv::Mat1f& depth_m, const St
 /// still.
 void add_blobs(const std::vector<GridSurface>& blobs, double time_s, std::vector<PersonTrack>& tracks);
 
+/// Takes from those who walk what has stood still for longer than they need to pass by: furniture that a fit
+/// took for a part of them. dt_s: between frames.
+void drop_what_stays(const StillSurface& still, double dt_s, std::vector<PersonTrack>& tracks);
+
 /// Forgets who has not been found again for some time, has left the image, or has not been detected for long
 /// (the detector may have died); and what moved without being detected as
 /// a person once it stands still.

@@ -39,7 +39,7 @@ void PersonTracks::add_detections(const Detections& detections) {
   apply_boxes(*found);
   for (auto i = static_cast<std::size_t>(found - frames_.begin()) + 1; i < frames_.size(); ++i) {
     // Whom the boxes showed was background before.
-    settle(frames_[i - 1]);
+    settle(i - 1);
     carry_still_surface(i);
     carry_into(i);
     follow_into(i);
@@ -52,7 +52,7 @@ void PersonTracks::end_frame(const SE3& this_from_previous, bool pose_known) {
   state.this_from_previous = this_from_previous;
   state.pose_known = pose_known;
   carry_still_surface(frames_.size() - 1);
-  settle(state);
+  settle(frames_.size() - 1);
 }
 
 void PersonTracks::carry_still_surface(std::size_t index) {
@@ -64,7 +64,9 @@ void PersonTracks::carry_still_surface(std::size_t index) {
   }
 }
 
-void PersonTracks::settle(FrameState& state) {
+void PersonTracks::settle(std::size_t index) {
+  FrameState& state = frames_[index];
+  if (index > 0) drop_what_stays(state.still, state.time_s - frames_[index - 1].time_s, state.tracks);
   const cv::Size size = state.depth_m.size();
   // With a wrong motion everything seems to move.
   if (state.pose_known)

@@ -62,7 +62,7 @@ class PersonTracks {
   void follow_into(std::size_t index);
   void apply_boxes(FrameState& state);
   void carry_still_surface(std::size_t index);
-  static void settle(FrameState& state);
+  void settle(std::size_t index);
   void forget_old();
 
   GridCamera camera_;

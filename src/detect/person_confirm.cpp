@@ -160,7 +160,7 @@ void confirm_people(const GridCamera& camera, const cv::Mat1f& depth_m, const St
                     Random& random, std::vector<PersonTrack>& tracks) {
   const cv::Mat1b labels = paint_people(tracks, depth_m.size());
   const std::vector<PersonFit> fits =
-      fit_people(camera, {depth_m, labels, still.free_age}, recognise(boxes, tracks), keypoints, random);
+      fit_people(camera, {depth_m, labels, still}, recognise(boxes, tracks), keypoints, random);
   std::vector<bool> box_used(boxes.size(), false);
   std::vector<bool> track_used(tracks.size(), false);
   for (const Pair& pair : find_pairs(boxes, fits, tracks, labels)) {

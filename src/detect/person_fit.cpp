@@ -72,8 +72,9 @@ class Fitter {
       const float known = share_of(candidate.cells, [&](int cell) {
         return known_box.number != 0 && scene_.people(cell) == known_box.number;
       });
-      const float still = share_of(
-          candidate.cells, [this](int cell) { return scene_.still_age(cell) >= StillSurface::kStillAge; });
+      const float still = share_of(candidate.cells, [this](int cell) {
+        return scene_.still.free_age(cell) >= StillSurface::kStillAge;
+      });
       const float score =
           candidate.match * std::sqrt(share) * (1.0F + kKnownGain * known) * (1.0F - kStillCost * still);
       if (score > best_score) {
@@ -121,7 +122,7 @@ class Fitter {
   /// What moved lately, or was somebody before, is more likely to be the person.
   [[nodiscard]] float history_weight(int cell, std::uint8_t number) const {
     const float known = number != 0 && scene_.people(cell) == number ? kKnownWeight : 1.0F;
-    return known * (scene_.still_age(cell) >= StillSurface::kStillAge ? kStillWeight : 1.0F);
+    return known * (scene_.still.free_age(cell) >= StillSurface::kStillAge ? kStillWeight : 1.0F);
   }
   template <typename Test>
   [[nodiscard]] static float share_of(const std::vector<int>& cells, const Test& test) {

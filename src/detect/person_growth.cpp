@@ -61,7 +61,7 @@ GrownSurface PersonGrowth::grow(const SdfModel& model, const cv::Rect& box_cells
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (static_cast<std::ptrdiff_t>(i) != largest - weights.begin()) {
       const bool large = weights[i] >= enough && !(he_moves && still_share(pieces[i]) > kStillPieceShare);
-      if ((!large && !moves(pieces[i])) || leaks_much(pieces[i])) continue;
+      if (!moves(pieces[i]) && (!large || leaks_much(pieces[i]))) continue;
     }
     leaks += count_leaks(pieces[i]);
     surface.cells.insert(surface.cells.end(), pieces[i].begin(), pieces[i].end());
@@ -76,25 +76,24 @@ void PersonGrowth::add_moving(const cv::Rect& box_cells, int piece_number, Grown
   front_m_ = 0.0F;
   for (int y = box_cells.y; y < box_cells.br().y; ++y) {
     for (int x = box_cells.x; x < box_cells.br().x; ++x) {
-      const bool arrived = scene_.still_age(y, x) < StillSurface::kUnknownAge;
+      const bool arrived = scene_.still.age(y, x) < StillSurface::kUnknownAge;
       if (!arrived || piece_(y, x) != 0 || !is_free(x, y) || !in_band(depth_m_(y, x))) continue;
       const std::vector<int> piece = flood(y * depth_m_.cols + x, piece_number++);
-      if (moves(piece) && !leaks_much(piece))
-        surface.cells.insert(surface.cells.end(), piece.begin(), piece.end());
+      if (moves(piece)) surface.cells.insert(surface.cells.end(), piece.begin(), piece.end());
     }
   }
 }
 
 float PersonGrowth::still_share(const std::vector<int>& cells) const {
   const auto still = std::count_if(cells.begin(), cells.end(), [this](int cell) {
-    return scene_.still_age(cell) >= StillSurface::kStillAge;
+    return scene_.still.free_age(cell) >= StillSurface::kStillAge;
   });
   return static_cast<float>(still) / static_cast<float>(std::max<std::size_t>(1, cells.size()));
 }
 
 float PersonGrowth::arrived_share(const std::vector<int>& cells) const {
   const auto arrived = std::count_if(cells.begin(), cells.end(), [this](int cell) {
-    return scene_.still_age(cell) < StillSurface::kUnknownAge;
+    return scene_.still.age(cell) < StillSurface::kUnknownAge;
   });
   return static_cast<float>(arrived) / static_cast<float>(std::max<std::size_t>(1, cells.size()));
 }

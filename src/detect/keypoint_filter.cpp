@@ -9,6 +9,7 @@ namespace cpslam {
 namespace {
 
 constexpr float kRimPx = 4.0F;         // a corner on the outline of a person lies on either side of it
+constexpr float kWalkingRimPx = 3.0F;  // around who walks, at any depth
 constexpr int kNoDepthRimCells = 3;    // the sensor's shadow beside a person has no depth
 constexpr int kNoDepthReachCells = 3;  // how far to look for a depth that tells
 constexpr int kPublishedHypotheses = 20;
@@ -32,8 +33,26 @@ float distance_px(float px, int cell) {
 
 class Judge {
  public:
-  Judge(const GridCamera& camera, const cv::Mat1f& depth_m, const std::vector<PersonTrack>& tracks)
-      : camera_(camera), depth_m_(depth_m), tracks_(tracks), labels_(paint_people(tracks, depth_m.size())) {}
+  Judge(const GridCamera& camera, const cv::Mat1f& depth_m, const std::vector<PersonTrack>& tracks,
+        double depth_lag_s)
+      : camera_(camera),
+        depth_m_(depth_m),
+        tracks_(tracks),
+        people_(depth_m.size(), std::uint8_t{0}),
+        people_m_(depth_m.size(), 0.0F) {
+    for (const PersonTrack& track : tracks) {
+      const bool walks = is_walking(track);
+      for (std::size_t i = 0; i < track.visible.size(); ++i) {
+        const int cell = track.visible.cells[i];
+        const float depth = track.visible.depth_m[i];
+        enter(cell, depth, walks);
+        if (!walks || depth_lag_s == 0.0) continue;
+        const Eigen::Vector3f gone_on =
+            camera.point(cell, depth) + track.velocity_m_per_s * static_cast<float>(depth_lag_s);
+        if (const int there = camera.cell_of(gone_on); there >= 0) enter(there, gone_on.z(), walks);
+      }
+    }
+  }
 
   [[nodiscard]] bool on_person(const DepthKeypoint& k) const {
     const cv::Point cell(static_cast<int>((k.x + 0.5F) / static_cast<float>(kDepthCellPx)),
@@ -42,23 +61,35 @@ class Judge {
   }
 
  private:
+  static constexpr std::uint8_t kNobody = 0;
+  static constexpr std::uint8_t kStanding = 1;
+  static constexpr std::uint8_t kWalking = 2;
+
+  void enter(int cell, float depth_m, bool walks) {
+    people_(cell) = walks ? kWalking : kStanding;
+    people_m_(cell) = depth_m;
+  }
+
   [[nodiscard]] bool on_surface(const DepthKeypoint& k, cv::Point cell) const {
-    const cv::Rect around = cv::Rect(cell.x - 1, cell.y - 1, 3, 3) & cv::Rect({}, labels_.size());
+    const cv::Rect around = cv::Rect(cell.x - 1, cell.y - 1, 3, 3) & cv::Rect({}, people_.size());
     for (int y = around.y; y < around.br().y; ++y) {
       for (int x = around.x; x < around.br().x; ++x) {
-        if (labels_(y, x) == 0 || std::hypot(distance_px(k.x, x), distance_px(k.y, y)) > kRimPx) continue;
-        if (std::abs(k.depth_m - depth_m_(y, x)) <= same_surface_m(k.depth_m)) return true;
+        if (people_(y, x) == kNobody) continue;
+        const float away_px = std::hypot(distance_px(k.x, x), distance_px(k.y, y));
+        if (people_(y, x) == kWalking && away_px <= kWalkingRimPx) return true;
+        if (away_px <= kRimPx && std::abs(k.depth_m - people_m_(y, x)) <= same_surface_m(k.depth_m))
+          return true;
       }
     }
     return false;
   }
 
   [[nodiscard]] bool hidden_in_person(const DepthKeypoint& k, cv::Point cell) const {
-    const cv::Rect grid({}, labels_.size());
+    const cv::Rect grid({}, people_.size());
     const auto square = [&](int reach) {
       return cv::Rect(cell.x - reach, cell.y - reach, 2 * reach + 1, 2 * reach + 1) & grid;
     };
-    if (cv::countNonZero(labels_(square(kNoDepthRimCells))) > 0) return true;
+    if (cv::countNonZero(people_(square(kNoDepthRimCells))) > 0) return true;
     if (cv::countNonZero(depth_m_(square(kNoDepthReachCells))) > 0) return false;
     return std::any_of(tracks_.begin(), tracks_.end(),
                        [&k](const PersonTrack& t) { return contains(t.box, k); });
@@ -67,7 +98,8 @@ class Judge {
   const GridCamera& camera_;
   const cv::Mat1f& depth_m_;
   const std::vector<PersonTrack>& tracks_;
-  cv::Mat1b labels_;
+  cv::Mat1b people_;  // kNobody, kStanding or kWalking
+  cv::Mat1f people_m_;
 };
 
 /// Marks the person's keypoints among `members` of one box.
@@ -105,11 +137,11 @@ void mark_as_published(std::span<const DepthKeypoint> keypoints, const std::vect
 }  // namespace
 
 std::vector<std::uint8_t> find_keypoints_on_people(const GridCamera& camera, const cv::Mat1f& depth_m,
-                                                   const std::vector<PersonTrack>& tracks,
+                                                   const std::vector<PersonTrack>& tracks, double depth_lag_s,
                                                    std::span<const DepthKeypoint> keypoints) {
   std::vector<std::uint8_t> marks(keypoints.size(), 0);
   if (tracks.empty()) return marks;
-  const Judge judge(camera, depth_m, tracks);
+  const Judge judge(camera, depth_m, tracks, depth_lag_s);
   std::transform(keypoints.begin(), keypoints.end(), marks.begin(),
                  [&judge](const DepthKeypoint& k) { return static_cast<std::uint8_t>(judge.on_person(k)); });
   return marks;

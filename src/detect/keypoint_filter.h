@@ -19,6 +19,7 @@ namespace cpslam {
 [[nodiscard]] std::vector<std::uint8_t> find_keypoints_on_people(const GridCamera& camera,
                                                                  const cv::Mat1f& depth_m,
                                                                  const std::vector<PersonTrack>& tracks,
+                                                                 double depth_lag_s,
                                                                  std::span<const DepthKeypoint> keypoints);
 
 /// The same by deleting all that is in a box.

@@ -62,6 +62,7 @@ void People::check(const RgbdFrame& frame) const {
 void People::begin(const RgbdFrame& frame, const SE3& expected_motion) {
   ++frame_;
   time_s_ = frame.time_s;
+  depth_lag_s_ = time_s_ - frame.depth_time_s.value_or(time_s_);
   depth_ = frame.depth;
   moving_mask_ = frame.moving_mask;
   boxes_collected_ = false;
@@ -137,7 +138,8 @@ std::vector<std::uint8_t> People::judge(const std::vector<DepthKeypoint>& keypoi
   std::vector<std::uint8_t> marks;
   switch (settings_.people.filter) {
     case PeopleFilter::kSdf:
-      marks = find_keypoints_on_people(tracks_.camera(), tracks_.depth_m(), tracks_.tracks(), keypoints);
+      marks = find_keypoints_on_people(tracks_.camera(), tracks_.depth_m(), tracks_.tracks(), depth_lag_s_,
+                                       keypoints);
       break;
     case PeopleFilter::kPaper:
       marks = find_keypoints_as_published(boxes_, keypoints, random_);

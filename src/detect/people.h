@@ -72,6 +72,7 @@ class People {
   // of the frame at hand
   std::uint64_t frame_ = 0;
   double time_s_ = 0.0;
+  double depth_lag_s_ = 0.0;
   cv::Mat depth_;
   cv::Mat moving_mask_;
   bool boxes_collected_ = false;

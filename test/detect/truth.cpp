@@ -128,7 +128,7 @@ FilterTruth measure_filter(const TruthOptions& options) {
     if (frame.time_s - simulation.time_s(0) < options.detection_delay_s + 0.1)
       continue;  // nobody was seen yet
     count(keypoints.keypoints,
-          find_keypoints_on_people(tracks.camera(), tracks.depth_m(), tracks.tracks(), keypoints.keypoints),
+          find_keypoints_on_people(tracks.camera(), tracks.depth_m(), tracks.tracks(), 0.0, keypoints.keypoints),
           frame.person_mask != 0, frame.boxes(), truth);
     compare_masks(person_mask(tracks.camera(), tracks.tracks(), frame.depth, metres_per_unit),
                   frame.person_mask, truth);

@@ -12,6 +12,7 @@
 namespace cpslam {
 namespace {
 
+constexpr float kFoldM = 0.05F;        // of clothes and between limbs
 constexpr int kGrowthCells = 2;        // an outline moves no further between two frames, once carried
 constexpr float kFoundShare = 0.3F;    // of the predicted surface: less, and something hides the person
 constexpr float kDepthShiftM = 0.02F;  // uncertainty of the median between found and predicted depths
@@ -96,6 +97,7 @@ class Finder {
     return std::abs(depth_m - prediction_.person_m(cell)) < agreement_m(depth_m, step_.dt_s);
   }
   [[nodiscard]] bool is_still(int cell) const { return step_.still_age(cell) >= StillSurface::kStillAge; }
+  [[nodiscard]] bool is_recent(int cell) const { return step_.still_age(cell) <= StillSurface::kRecentAge; }
   void take(int cell) {
     taken_(cell) = 1;
     found_.add(cell, step_.depth_m(cell));
@@ -109,9 +111,10 @@ class Finder {
       if (!cv::Rect({}, step_.depth_m.size()).contains(next) || taken_(next) != 0) continue;
       const int there = next.y * columns + next.x;
       const float depth_m = step_.depth_m(next);
-      if (depth_m <= 0.0F || std::abs(depth_m - step_.depth_m(cell)) > connected_step_m(depth_m)) continue;
+      if (depth_m <= 0.0F || std::abs(depth_m - step_.depth_m(cell)) > connected_step_m(depth_m) + kFoldM)
+        continue;
       const std::uint8_t other = prediction_.person(next);
-      if ((other != 0 && other != index) || is_still(there)) continue;
+      if ((other != 0 && other != index) || !is_recent(there)) continue;
       take(there);
     }
   }

@@ -28,6 +28,7 @@ struct StillSurface {
 
   static constexpr std::uint8_t kUnknownAge = 8;  ///< what is younger has arrived
   static constexpr std::uint8_t kStillAge = 12;   ///< from this age on it counts as still
+  static constexpr std::uint8_t kRecentAge = 20;  ///< up to this age it may belong to what has just arrived
 };
 
 /// How far a reading of a still surface may be from what another frame predicts (m).

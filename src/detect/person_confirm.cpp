@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "detect/person_growth.h"
 #include "detect/still_surface.h"
 
 namespace cpslam {
@@ -19,6 +21,7 @@ constexpr double kMinMissedS = 0.7;
 constexpr double kHiddenS = 0.7;     // behind somebody else, say
 constexpr double kUnseenBoxS = 0.2;  // a box without any depth cannot be carried
 constexpr double kUndetectedS = 5.0;
+constexpr int kMinContacts = 3;
 constexpr double kBodyWidthM = 0.5;
 constexpr double kMostFrames = 60.0;
 constexpr std::size_t kMaxPeople = 254;
@@ -147,6 +150,43 @@ bool is_furniture(const PersonTrack& track, const cv::Mat1b& boxed, const cv::Ma
   return track.misses > 1 || 2 * shown > static_cast<std::ptrdiff_t>(track.visible.size());
 }
 
+/// The track on whose surface a blob hangs without a step in depth, null when there is none.
+PersonTrack* find_owner(const cv::Mat1f& depth_m, const GridSurface& blob, std::vector<PersonTrack>& tracks) {
+  const cv::Mat1b labels = paint_people(tracks, depth_m.size());
+  std::array<int, 256> contacts{};
+  for (std::size_t i = 0; i < blob.size(); ++i) {
+    const cv::Point at(blob.cells[i] % depth_m.cols, blob.cells[i] / depth_m.cols);
+    for (const cv::Point& next :
+         {at + cv::Point(1, 0), at - cv::Point(1, 0), at + cv::Point(0, 1), at - cv::Point(0, 1)}) {
+      if (!cv::Rect({}, depth_m.size()).contains(next)) continue;
+      if (std::abs(depth_m(next) - blob.depth_m[i]) < connected_step_m(blob.depth_m[i]))
+        ++contacts[labels(next)];
+    }
+  }
+  contacts[0] = 0;
+  const auto most = std::max_element(contacts.begin(), contacts.end());
+  if (*most < kMinContacts) return nullptr;
+  const auto number = static_cast<std::uint8_t>(most - contacts.begin());
+  return &*std::find_if(tracks.begin(), tracks.end(),
+                        [number](const PersonTrack& t) { return t.number == number; });
+}
+
+/// Takes from those nobody has detected what turned out to be somebody who was; forgets whom that leaves
+/// little of.
+void absorb_undetected(cv::Size grid_size, std::vector<PersonTrack>& tracks) {
+  cv::Mat1b detected(grid_size, std::uint8_t{0});
+  for (const PersonTrack& track : tracks) {
+    if (track.confirmations == 0) continue;
+    for (const int cell : track.visible.cells) detected(cell) = 1;
+  }
+  std::erase_if(tracks, [&](const PersonTrack& track) {
+    if (track.confirmations > 0) return false;
+    const auto n = std::count_if(track.visible.cells.begin(), track.visible.cells.end(),
+                                 [&](int cell) { return detected(cell) != 0; });
+    return 2 * n >= static_cast<std::ptrdiff_t>(track.visible.size());
+  });
+}
+
 bool is_missed_too_often(const PersonTrack& track, double time_s) {
   if (track.confirmations == 0) return false;  // what moves need not be a person
   const int most = track.confirmations >= kConfirmationsToTrust ? kMaxMisses : kMaxMissesOfNew;
@@ -183,10 +223,17 @@ void confirm_people(const GridCamera& camera, const cv::Mat1f& depth_m, const St
     confirm(camera, boxes[b], fits[b], depth_m, still.age, time_s, track);
     tracks.push_back(std::move(track));
   }
+  absorb_undetected(depth_m.size(), tracks);
 }
 
-void add_blobs(const std::vector<GridSurface>& blobs, double time_s, std::vector<PersonTrack>& tracks) {
+void add_blobs(const cv::Mat1f& depth_m, const std::vector<GridSurface>& blobs, double time_s,
+               std::vector<PersonTrack>& tracks) {
   for (const GridSurface& blob : blobs) {
+    if (PersonTrack* owner = find_owner(depth_m, blob, tracks)) {
+      for (std::size_t i = 0; i < blob.size(); ++i) owner->visible.add(blob.cells[i], blob.depth_m[i]);
+      owner->shape = owner->visible;
+      continue;
+    }
     if (tracks.size() >= kMaxPeople) return;
     PersonTrack track;
     track.number = free_number(tracks);

@@ -19,9 +19,10 @@ void confirm_people(const GridCamera& camera, const cv::Mat1f& depth_m, const St
                     double time_s, std::span<const PersonBox> boxes, std::span<const DepthKeypoint> keypoints,
                     Random& random, std::vector<PersonTrack>& tracks);
 
-/// Takes the surfaces in as people nobody has detected yet, until a detection confirms them, or they stand
-/// still.
-void add_blobs(const std::vector<GridSurface>& blobs, double time_s, std::vector<PersonTrack>& tracks);
+/// Takes moving surfaces in: as a part of the one they hang on, or else as people nobody has detected yet,
+/// until a detection confirms them or they stand still.
+void add_blobs(const cv::Mat1f& depth_m, const std::vector<GridSurface>& blobs, double time_s,
+               std::vector<PersonTrack>& tracks);
 
 /// Takes from those who walk what has stood still for longer than they need to pass by: furniture that a fit
 /// took for a part of them. dt_s: between frames.

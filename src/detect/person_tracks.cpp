@@ -69,9 +69,11 @@ void PersonTracks::settle(std::size_t index) {
   if (index > 0) drop_what_stays(state.still, state.time_s - frames_[index - 1].time_s, state.tracks);
   const cv::Size size = state.depth_m.size();
   // With a wrong motion everything seems to move.
-  if (state.pose_known)
-    add_blobs(find_moving_blobs(state.depth_m, state.still.age, paint_people(state.tracks, size)),
-              state.time_s, state.tracks);
+  if (state.pose_known) {
+    const cv::Mat1b people = paint_people(state.tracks, size);
+    add_blobs(state.depth_m, find_moving_blobs(state.depth_m, state.still.age, people), state.time_s,
+              state.tracks);
+  }
   state.still.claim(paint_people(state.tracks, size));
 }
 

@@ -24,7 +24,8 @@ GridSurface flood(const cv::Mat1f& depth_m, int seed, cv::Mat1b& recent) {
     for (const cv::Point& next :
          {at + cv::Point(1, 0), at - cv::Point(1, 0), at + cv::Point(0, 1), at - cv::Point(0, 1)}) {
       if (!cv::Rect({}, depth_m.size()).contains(next) || recent(next) == 0) continue;
-      if (std::abs(depth_m(next) - depth_m(at)) > connected_step_m(depth_m(at)) + kFoldM) continue;
+      const float fold_m = recent(next) == 2 ? kFoldM : 0.0F;
+      if (std::abs(depth_m(next) - depth_m(at)) > connected_step_m(depth_m(at)) + fold_m) continue;
       reach.push_back(recent(next) == 2 ? kReachCells : reach[i] - 1);
       recent(next) = 0;
       blob.add(next.y * depth_m.cols + next.x, depth_m(next));

@@ -98,6 +98,7 @@ class Finder {
   }
   [[nodiscard]] bool is_still(int cell) const { return step_.still_age(cell) >= StillSurface::kStillAge; }
   [[nodiscard]] bool is_recent(int cell) const { return step_.still_age(cell) <= StillSurface::kRecentAge; }
+  [[nodiscard]] bool has_arrived(int cell) const { return step_.still_age(cell) < StillSurface::kUnknownAge; }
   void take(int cell) {
     taken_(cell) = 1;
     found_.add(cell, step_.depth_m(cell));
@@ -111,7 +112,8 @@ class Finder {
       if (!cv::Rect({}, step_.depth_m.size()).contains(next) || taken_(next) != 0) continue;
       const int there = next.y * columns + next.x;
       const float depth_m = step_.depth_m(next);
-      if (depth_m <= 0.0F || std::abs(depth_m - step_.depth_m(cell)) > connected_step_m(depth_m) + kFoldM)
+      const float fold_m = has_arrived(there) ? kFoldM : 0.0F;
+      if (depth_m <= 0.0F || std::abs(depth_m - step_.depth_m(cell)) > connected_step_m(depth_m) + fold_m)
         continue;
       const std::uint8_t other = prediction_.person(next);
       if ((other != 0 && other != index) || !is_recent(there)) continue;

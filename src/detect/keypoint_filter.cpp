@@ -9,7 +9,7 @@ namespace cpslam {
 namespace {
 
 constexpr float kRimPx = 4.0F;         // a corner on the outline of a person lies on either side of it
-constexpr float kWalkingRimPx = 2.5F;  // around who walks, at any depth
+constexpr float kWalkingRimPx = 1.5F;  // around who walks, at any depth
 constexpr int kNoDepthRimCells = 3;    // the sensor's shadow beside a person has no depth
 constexpr int kNoDepthReachCells = 3;  // how far to look for a depth that tells
 constexpr int kPublishedHypotheses = 20;

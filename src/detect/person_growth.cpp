@@ -15,7 +15,6 @@ constexpr float kBackBandM = 1.0F;      // a leg behind
 constexpr float kMinPieceShare = 0.2F;  // of the largest piece
 constexpr float kMovingShare = 0.4F;    // of cells that have just arrived: then a piece moves
 constexpr float kWalkingShare = 0.2F;   // the same of a whole person, whose inside seems to stand still
-constexpr float kStillPieceShare = 0.8F;
 constexpr std::size_t kMinMovingCells = 4;
 constexpr float kMaxPieceLeak = 0.5F;  // cells that go on outside the box, by the root of all
 constexpr float kInlierStepM = 0.1F;   // more between two inliers
@@ -60,7 +59,7 @@ GrownSurface PersonGrowth::grow(const SdfModel& model, const cv::Rect& box_cells
   int leaks = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (static_cast<std::ptrdiff_t>(i) != largest - weights.begin()) {
-      const bool large = weights[i] >= enough && !(he_moves && still_share(pieces[i]) > kStillPieceShare);
+      const bool large = weights[i] >= enough && !he_moves;
       if (!moves(pieces[i]) && (!large || leaks_much(pieces[i]))) continue;
     }
     leaks += count_leaks(pieces[i]);

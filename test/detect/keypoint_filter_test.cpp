@@ -161,12 +161,15 @@ TEST_F(PublishedFilterTest, RemovesTheLargestSetThatAgrees) {
 }
 
 TEST_F(PublishedFilterTest, ItsThresholdGrowsFromTwoToFourCentimetres) {
-  // Formula (6). All agree on 2 m but one, 3 cm off: outside at first, inside once many agree.
-  add(60, 2.0F);
-  add(1, 2.03F);
-  EXPECT_EQ(run(), first(61));
-  keypoints.back().depth_m = 2.045F;
-  EXPECT_EQ(run(), first(60));
+  // Formula (6). From the middle both halves are 2.5 cm off: outside until one half has agreed, and then in.
+  add(30, 2.0F);
+  add(30, 2.05F);
+  int all = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) all += run(seed) == first(60) ? 1 : 0;
+  EXPECT_GE(all, 18);
+  // 4.5 cm off they are never in.
+  for (std::size_t i = 30; i < 60; ++i) keypoints[i].depth_m = 2.09F;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) EXPECT_EQ(run(seed).size(), 30U);
 }
 
 TEST_F(PublishedFilterTest, FewThatAgreeHaveTheNarrowThreshold) {

@@ -10,6 +10,7 @@
 #include "cpslam/error.h"
 #include "detect/depth_scene.h"
 #include "detect/detector_doubles.h"
+#include "support/synthetic.h"
 
 namespace cpslam {
 namespace {
@@ -30,10 +31,11 @@ class PeopleTest : public testing::Test {
   }
   void keypoints_every_px(int step) {
     candidates = {};
+    Random looks(1);
     for (int y = step / 2; y < 480; y += step) {
       for (int x = step / 2; x < 640; x += step) {
         candidates.orb.keypoints.push_back({float(x), float(y)});
-        candidates.orb.descriptors.emplace_back();
+        candidates.orb.descriptors.push_back(synthetic::random_descriptor(looks));
         candidates.undistorted.push_back({float(x), float(y)});
         candidates.depth.push_back({close.depth_m(y, x), 0.01F});
       }
@@ -224,11 +226,12 @@ TEST_F(PeopleTest, AsksForAsManyMoreAsAreMissing) {
 }
 
 TEST_F(PeopleTest, AsksForNoMoreThanTheFrameWouldHave) {
-  settings.orb.n_features = 480;
+  settings.orb.n_features = 300;
+  keypoints_every_px(40);
   People people = make();
   people.begin(next_frame({box}), SE3());
   const auto keep = people.filter(candidates);
-  EXPECT_EQ(int(std::count(keep.begin(), keep.end(), std::uint8_t{1})) + people.missing_keypoints(keep), 480);
+  EXPECT_EQ(int(std::count(keep.begin(), keep.end(), std::uint8_t{1})) + people.missing_keypoints(keep), 300);
 }
 
 TEST_F(PeopleTest, AsksForNoneWhereThereAreEnoughOrNobodyIs) {

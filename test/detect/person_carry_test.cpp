@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "detect/depth_scene.h"
+#include "detect/still_surface.h"
 
 namespace cpslam {
 namespace {
@@ -20,13 +21,18 @@ using scene::View;
 
 constexpr double kStepS = 1.0 / 30.0;
 
-/// Carries people through a scene from their true surfaces in its first frame on.
+/// Carries people through a scene from their true surfaces in its first frame on, when the room has long been
+/// known and they have just come in.
 class Walk {
  public:
   using CameraPath = std::function<SE3(double time_s)>;
   explicit Walk(
       DepthScene room, CameraPath path = [](double) { return SE3(); })
-      : room_(std::move(room)), path_(std::move(path)), view_(room_.look(camera_, path_(0.0))) {}
+      : room_(std::move(room)), path_(std::move(path)), view_(room_.look(camera_, path_(0.0))) {
+    still_ = StillSurface::begin(view_.depth_m);
+    still_.age.setTo(100);
+    still_.age.setTo(0, view_.owner != 0);
+  }
 
   PersonTrack& follow(std::uint8_t number,
                       const Eigen::Vector3f& velocity_m_per_s = Eigen::Vector3f::Zero()) {
@@ -41,9 +47,9 @@ class Walk {
     time_s_ += kStepS;
     View next = room_.look(camera_, path_(time_s_), time_s_);
     if (noise_) scene::add_noise(next, *noise_);
-    carry_people(camera_,
-                 {view_.depth_m, next.depth_m, path_(time_s_).inverse() * world_from_last, time_s_, kStepS},
-                 tracks_);
+    const SE3 moved = path_(time_s_).inverse() * world_from_last;
+    still_ = still_.carry(camera_, next.depth_m, moved);
+    carry_people(camera_, {next.depth_m, still_.age, moved, time_s_, kStepS}, tracks_);
     view_ = next;
   }
   void steps(int n) {
@@ -73,6 +79,7 @@ class Walk {
   CameraPath path_;
   double time_s_ = 0.0;
   View view_;
+  StillSurface still_;
   std::optional<Random> noise_;
   std::vector<PersonTrack> tracks_;
 };
@@ -188,7 +195,7 @@ TEST(PersonCarry, SaysWhenSomebodyCannotBeFound) {
   const View with = DepthScene(empty).person({1, {0.0F, kCameraHeightM, 2.0F}}).look(camera);
   const View without = empty.look(camera);
   std::vector<PersonTrack> tracks{scene::track_of(with, 1, 1.0)};
-  carry_people(camera, {with.depth_m, without.depth_m, SE3(), 1.0 + kStepS, kStepS}, tracks);
+  carry_people(camera, {without.depth_m, scene::blank(without), SE3(), 1.0 + kStepS, kStepS}, tracks);
   EXPECT_DOUBLE_EQ(tracks[0].seen_s, 1.0);
   EXPECT_LT(tracks[0].visible.size(), with.depth_m.total() / 100);
   EXPECT_EQ(tracks[0].shape.size(), scene::track_of(with, 1).shape.size());
@@ -247,7 +254,7 @@ TEST(PersonCarry, NobodyIsNothingToCarry) {
   const GridCamera camera = scene::grid_camera();
   const View view = DepthScene().wall(4.0F).look(camera);
   std::vector<PersonTrack> tracks;
-  carry_people(camera, {view.depth_m, view.depth_m, SE3(), 0.1, 0.1}, tracks);
+  carry_people(camera, {view.depth_m, scene::blank(view), SE3(), 0.1, 0.1}, tracks);
   EXPECT_TRUE(tracks.empty());
 }
 
@@ -256,12 +263,12 @@ TEST(PersonCarry, SurvivesFramesWithoutDepthAndWithoutTime) {
   const View view = DepthScene().wall(4.0F).person({1, {0.0F, kCameraHeightM, 2.0F}}).look(camera);
   const cv::Mat1f none(camera.size(), 0.0F);
   std::vector<PersonTrack> tracks{scene::track_of(view, 1, 1.0)};
-  carry_people(camera, {view.depth_m, none, SE3(), 1.1, 0.1}, tracks);
+  carry_people(camera, {none, scene::blank(view), SE3(), 1.1, 0.1}, tracks);
   EXPECT_TRUE(tracks[0].visible.cells.empty());
-  carry_people(camera, {none, view.depth_m, SE3(), 1.2, 0.1}, tracks);
+  carry_people(camera, {view.depth_m, scene::blank(view), SE3(), 1.2, 0.1}, tracks);
   EXPECT_GT(scene::overlap(tracks[0].visible.cells, scene::cells_of(view, 1)), 0.8);
   EXPECT_DOUBLE_EQ(tracks[0].seen_s, 1.2);
-  carry_people(camera, {view.depth_m, view.depth_m, SE3(), 1.2, 0.0}, tracks);
+  carry_people(camera, {view.depth_m, scene::blank(view), SE3(), 1.2, 0.0}, tracks);
   EXPECT_TRUE(tracks[0].velocity_m_per_s.allFinite());
 }
 

@@ -32,7 +32,7 @@ struct FitInput {
 };
 
 PersonFit fit_one(const View& view, const PersonBox& box) {
-  return FitInput{view, {{box, 0}}}.fit().at(0);
+  return FitInput{view, {{box}}}.fit().at(0);
 }
 
 double iou(const PersonFit& fit, const View& view, std::uint8_t number) {
@@ -70,7 +70,7 @@ TEST(PersonFit, DoesSoInNoiseToo) {
     View view = look(DepthScene().wall(5.0F).floor().person({1, {-0.3F, kCameraHeightM, 3.0F}}));
     Random random(seed);
     scene::add_noise(view, random);
-    FitInput input{view, {{scene::box_of(view, 1), 0}}};
+    FitInput input{view, {{scene::box_of(view, 1)}}};
     input.seed = seed;
     sum += iou(input.fit().at(0), view, 1);
   }
@@ -101,7 +101,7 @@ TEST(PersonFit, KeepsPeopleInOverlappingBoxesApart) {
                              .person({1, {0.0F, kCameraHeightM, 1.8F}})
                              .person({2, {0.5F, kCameraHeightM, 3.0F}}));
   const std::vector<PersonFit> fits =
-      FitInput{view, {{scene::box_of(view, 2), 0}, {scene::box_of(view, 1), 0}}}.fit();
+      FitInput{view, {{scene::box_of(view, 2)}, {scene::box_of(view, 1)}}}.fit();
   EXPECT_GT(iou(fits[0], view, 2), 0.7);
   EXPECT_GT(iou(fits[1], view, 1), 0.8);
   std::vector<int> both;
@@ -136,7 +136,7 @@ TEST(PersonFit, FindsWhoLeansOnTheWall) {
 
 TEST(PersonFit, KeypointsWithoutASurfaceAroundThemMakeNoPerson) {
   View view = look(DepthScene().wall(4.0F).person({1, {0.0F, kCameraHeightM, 2.4F}}));
-  FitInput input{view, {{scene::box_of(view, 1), 0}}};
+  FitInput input{view, {{scene::box_of(view, 1)}}};
   view.depth_m.setTo(0.0F);
   EXPECT_TRUE(input.fit().at(0).cells.empty());
 }
@@ -151,7 +151,7 @@ TEST(PersonFit, WhatStandsStillYieldsToWhatDoesNot) {
   PersonBox box = scene::box_of(view, 1);
   box.width += box.x - 230.0;
   box.x = 230.0;
-  FitInput input{view, {{box, 0}}};
+  FitInput input{view, {{box}}};
   input.still_age.setTo(100);
   input.still_age.setTo(2, view.owner == 1);
   EXPECT_GT(iou(input.fit().at(0), view, 1), 0.75);
@@ -193,7 +193,7 @@ TEST(PersonFit, HoldsOutInRandomRoomsWithRandomBoxes) {
     box.y += 0.05 * box.height * random.normal();
     box.width *= 1.0 + 0.07 * random.normal();
     box.height *= 1.0 + 0.05 * random.normal();
-    FitInput input{view, {{box, 0}}};
+    FitInput input{view, {{box}}};
     input.seed = std::uint64_t(trial);
     const double found = iou(input.fit().at(0), view, 1);
     sum += found;
@@ -205,7 +205,7 @@ TEST(PersonFit, HoldsOutInRandomRoomsWithRandomBoxes) {
 
 TEST(PersonFit, IsTheSameForTheSameSeed) {
   const View view = look(DepthScene().wall(4.0F).floor().person({1, {0.2F, kCameraHeightM, 2.4F}}));
-  const FitInput input{view, {{scene::box_of(view, 1), 0}}};
+  const FitInput input{view, {{scene::box_of(view, 1)}}};
   EXPECT_EQ(input.fit().at(0).cells, input.fit().at(0).cells);
 }
 

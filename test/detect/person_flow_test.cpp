@@ -104,6 +104,20 @@ TEST_F(PersonFlowTest, WhatLooksAlikeEverywhereIsNoMatch) {
   EXPECT_FALSE(tracks_[0].velocity_known);
 }
 
+TEST_F(PersonFlowTest, APatternThatRepeatsExactlyIsNoMatch) {
+  // A shirt: the same look every 5 px, which fits its neighbours' places as well as its own.
+  const Descriptor look = random_descriptor(random_);
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      previous_.keypoints.push_back({float(300 + 5 * x), float(200 + 5 * y), 2.5F});
+      previous_.descriptors.push_back(look);
+    }
+  }
+  current_ = previous_;
+  follow();
+  EXPECT_FALSE(tracks_[0].velocity_known);
+}
+
 TEST_F(PersonFlowTest, TheRoomsKeypointsPlayNoPart) {
   add_points(30, {1.0, 0.0, 0.0});
   people_.setTo(0);

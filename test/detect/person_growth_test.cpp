@@ -16,11 +16,11 @@ class PersonGrowthTest : public testing::Test {
   static constexpr int kColumns = 160;
   static constexpr int kRows = 120;
 
-  GrownSurface grow(float mean_m = 2.0F, std::uint8_t number = 0) {
+  GrownSurface grow(float mean_m = 2.0F, const KnownBox& known = {}) {
     const SdfModel model{mean_m, 0.1F, 0.25F, 0.5F};
     const SceneEvidence scene{depth_m, people, still_age};
     PersonGrowth growth(scene, taken);
-    return growth.grow(model, box, prior(), background, number);
+    return growth.grow(model, box, prior(), background, known);
   }
   [[nodiscard]] PlacePrior prior() const {
     return {{box.x * 4.0, box.y * 4.0, box.width * 4.0, box.height * 4.0}, {640, 480}};
@@ -165,11 +165,11 @@ TEST_F(PersonGrowthTest, ServesSeveralBoxesOneAfterTheOther) {
   const SceneEvidence scene{depth_m, people, still_age};
   PersonGrowth growth(scene, taken);
   const SdfModel model{2.0F, 0.1F, 0.25F, 0.5F};
-  const std::vector<int> first = growth.grow(model, box, prior(), background, 0).cells;
-  const std::vector<int> again = growth.grow(model, box, prior(), background, 0).cells;
+  const std::vector<int> first = growth.grow(model, box, prior(), background, {}).cells;
+  const std::vector<int> again = growth.grow(model, box, prior(), background, {}).cells;
   EXPECT_EQ(first, again);
   taken(torso).setTo(1);
-  EXPECT_TRUE(growth.grow(model, box, prior(), background, 0).cells.empty());
+  EXPECT_TRUE(growth.grow(model, box, prior(), background, {}).cells.empty());
 }
 
 }  // namespace

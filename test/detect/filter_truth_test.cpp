@@ -4,8 +4,8 @@
 
 #include "detect/truth.h"
 
-// The filter against the simulator's exact masks, sensor noise included. Short runs: they show that the filter
-// works at all; docs/method.md has the numbers of long ones.
+// The filter against the simulator's exact masks, sensor noise included. Short runs: they show that the
+// filter works at all; docs/method.md has the numbers of long ones.
 
 namespace cpslam {
 namespace {

@@ -145,7 +145,7 @@ TEST(PeopleFuzz, AnySequenceOfFramesAndDetectionsIsSurvived) {
         const std::uint64_t of = frame - std::min<std::uint64_t>(frame, random.index(6));
         tracks.add_detections({of, time_s, any_boxes(random)});
       }
-      tracks.end_frame(motion);
+      tracks.end_frame(motion, random.uniform() < 0.8);
       expect_sound(tracks);
       cv::Mat raw(480, 640, CV_16UC1, cv::Scalar(0));
       if (random.uniform() < 0.5) cv::randu(raw, 0, 60000);

@@ -57,7 +57,7 @@ class PeopleTest : public testing::Test {
     people.check(frame);
     people.begin(frame, SE3());
     const std::vector<std::uint8_t> keep = people.filter(candidates);
-    people.end(SE3());
+    people.end(SE3(), true);
     return keep;
   }
   [[nodiscard]] People make(std::unique_ptr<PersonDetector> detector = nullptr) {
@@ -157,7 +157,7 @@ TEST_F(PeopleTest, TheCallersMaskIsRemovedFromItsFrameOnly) {
   }
   const cv::Mat excluded = people.excluded();
   EXPECT_EQ(cv::countNonZero(excluded(cart)), cart.area());
-  people.end(SE3());
+  people.end(SE3(), true);
   EXPECT_TRUE(all_kept(run(people, next_frame())));
 }
 
@@ -199,7 +199,7 @@ TEST_F(PeopleTest, ExpectsNobodyBeforeTheFirstBoxes) {
   people.begin(first, SE3());
   EXPECT_TRUE(people.prior().people.empty());
   const auto keep = people.filter(candidates);
-  people.end(SE3());
+  people.end(SE3(), true);
   people.begin(next_frame(), SE3());
   const cv::Mat expected = people.prior().people;
   ASSERT_EQ(expected.size(), cv::Size(160, 120));
@@ -239,7 +239,7 @@ TEST_F(PeopleTest, AsksForNoneWhereThereAreEnoughOrNobodyIs) {
   People people = make();
   people.begin(next_frame({box}), SE3());
   EXPECT_EQ(people.missing_keypoints(people.filter(candidates)), 0);
-  people.end(SE3());
+  people.end(SE3(), true);
   keypoints_every_px(60);
   People alone = make();
   alone.begin(next_frame(std::vector<PersonBox>{}), SE3());
@@ -253,7 +253,7 @@ TEST_F(PeopleTest, SaysOnceThatFramesGetMore) {
     people.begin(next_frame({box}), SE3());
     const auto keep = people.filter(candidates);
     EXPECT_GT(people.missing_keypoints(keep), 0);
-    people.end(SE3());
+    people.end(SE3(), true);
   }
   EXPECT_EQ(people.statistics().extended_frames, 3U);
   EXPECT_EQ(book.at(LogLevel::kInfo).size(), 1U);
@@ -269,7 +269,7 @@ TEST_F(PeopleTest, FiltersAgainAfterTheCandidatesWereExtended) {
   const auto before = people.filter(candidates);
   keypoints_every_px(12);
   expect_filtered(people.filter(candidates));
-  people.end(SE3());
+  people.end(SE3(), true);
   EXPECT_EQ(calls, 1);
   EXPECT_EQ(people.statistics().keypoints, candidates.orb.keypoints.size()) << "counted once, as they ended";
 }

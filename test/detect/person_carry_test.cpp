@@ -30,8 +30,8 @@ class Walk {
       DepthScene room, CameraPath path = [](double) { return SE3(); })
       : room_(std::move(room)), path_(std::move(path)), view_(room_.look(camera_, path_(0.0))) {
     still_ = StillSurface::begin(view_.depth_m);
-    still_.age.setTo(100);
-    still_.age.setTo(0, view_.owner != 0);
+    still_.free_age.setTo(100);
+    still_.free_age.setTo(0, view_.owner != 0);
   }
 
   PersonTrack& follow(std::uint8_t number,
@@ -49,7 +49,8 @@ class Walk {
     if (noise_) scene::add_noise(next, *noise_);
     const SE3 moved = path_(time_s_).inverse() * world_from_last;
     still_ = still_.carry(camera_, next.depth_m, moved);
-    carry_people(camera_, {next.depth_m, still_.age, moved, time_s_, kStepS}, tracks_);
+    carry_people(camera_, {next.depth_m, still_.free_age, moved, time_s_, kStepS}, tracks_);
+    still_.claim(paint_people(tracks_, camera_.size()));
     view_ = next;
   }
   void steps(int n) {

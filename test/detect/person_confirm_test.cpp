@@ -19,8 +19,8 @@ using scene::View;
 class PersonConfirmTest : public testing::Test {
  protected:
   void detect(const std::vector<PersonBox>& boxes) {
-    confirm_people(camera, view.depth_m, scene::blank(view, StillSurface::kUnknownAge), time_s, boxes, {},
-                   random, tracks);
+    confirm_people(camera, view.depth_m, StillSurface::begin(view.depth_m), time_s, boxes, {}, random,
+                   tracks);
   }
   /// Detections ten times a second, all of which see the boxes.
   void detect_for(double duration_s, const std::vector<PersonBox>& boxes) {
@@ -49,6 +49,7 @@ class PersonConfirmTest : public testing::Test {
                   .person({1, {-0.5F, kCameraHeightM, 2.6F}})
                   .person({2, {0.6F, kCameraHeightM, 3.2F}})
                   .look(camera);
+  cv::Mat1b blank = scene::blank(view);
   Random random{1};
   double time_s = 100.0;
   std::vector<PersonTrack> tracks;
@@ -154,9 +155,9 @@ TEST_F(PersonConfirmTest, ABoxWithoutDepthIsKeptAsABoxForAMoment) {
   ASSERT_EQ(tracks.size(), 1U);
   EXPECT_EQ(tracks[0].visible.size(), 0U);
   EXPECT_EQ(tracks[0].box.width, 100.0);
-  forget_people(time_s + 0.03, tracks);
+  forget_people(time_s + 0.03, blank, tracks);
   EXPECT_EQ(tracks.size(), 1U);
-  forget_people(time_s + 1.0, tracks);
+  forget_people(time_s + 1.0, blank, tracks);
   EXPECT_TRUE(tracks.empty());
 }
 
@@ -186,19 +187,19 @@ TEST_F(PersonConfirmTest, AHugeCrowdIsCutOffAtItsLimit) {
 TEST_F(PersonConfirmTest, ForgetsWhoIsNotFoundAgain) {
   detect({box(1), box(2)});
   tracks[1].seen_s = time_s + 1.5;
-  forget_people(time_s + 0.2, tracks);
+  forget_people(time_s + 0.2, blank, tracks);
   EXPECT_EQ(tracks.size(), 2U);
-  forget_people(time_s + 1.5, tracks);
+  forget_people(time_s + 1.5, blank, tracks);
   EXPECT_EQ(tracks.size(), 1U);
 }
 
 TEST_F(PersonConfirmTest, ForgetsWhomNoDetectorHasSeenForVeryLong) {
   detect({box(1)});
   tracks[0].seen_s = time_s + 2.0;
-  forget_people(time_s + 2.0, tracks);
+  forget_people(time_s + 2.0, blank, tracks);
   EXPECT_EQ(tracks.size(), 1U);
   tracks[0].seen_s = time_s + 30.0;
-  forget_people(time_s + 30.0, tracks);
+  forget_people(time_s + 30.0, blank, tracks);
   EXPECT_TRUE(tracks.empty());
 }
 

@@ -49,7 +49,7 @@ struct Film {
   void begin(PersonTracks& tracks, int i) const {
     tracks.begin_frame(std::uint64_t(i), time_s(i), views[std::size_t(i)].depth_m, moved[std::size_t(i)]);
   }
-  void end(PersonTracks& tracks, int i) const { tracks.end_frame(moved[std::size_t(i)]); }
+  void end(PersonTracks& tracks, int i) const { tracks.end_frame(moved[std::size_t(i)], true); }
   /// Intersection over union of all people.
   [[nodiscard]] double iou(const PersonTracks& tracks, int i) const {
     const cv::Mat found = tracks.labels() != 0, truth = views[std::size_t(i)].owner != 0;
@@ -182,7 +182,7 @@ TEST(PersonTracks, ReplayWithTheMotionThatWasFoundInTheEnd) {
       const SE3& found = film.moved[std::size_t(i)];
       tracks.begin_frame(std::uint64_t(i), Film::time_s(i), film.views[std::size_t(i)].depth_m,
                          expected_wrongly ? SE3() : found);
-      tracks.end_frame(found);
+      tracks.end_frame(found, true);
     }
     tracks.add_detections(film.detections(2));
     return tracks.tracks().empty() ? 0.0 : film.iou(tracks, film.size() - 1);

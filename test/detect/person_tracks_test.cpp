@@ -161,16 +161,59 @@ TEST(PersonTracks, LateDetectionsGiveWhatDetectionsInTimeDo) {
 }
 
 TEST(PersonTracks, ALateDetectionFindsSomebodyWhereHeIsByNow) {
-  const Film film(room().person(walker()), 16);
+  for (const float speed_m_per_s : {0.0F, 0.6F}) {
+    Person person = walker();
+    person.velocity_m_per_s.x() = speed_m_per_s;
+    const Film film(room().person(person), 16);
+    PersonTracks tracks = new_tracks();
+    for (int i = 0; i < film.size(); ++i) {
+      film.begin(tracks, i);
+      tracks.end_frame(SE3(), false);
+    }
+    EXPECT_TRUE(tracks.tracks().empty());
+    tracks.add_detections(film.detections(3));
+    ASSERT_EQ(tracks.tracks().size(), 1U) << speed_m_per_s;
+    EXPECT_GT(film.iou(tracks, film.size() - 1), 0.5) << speed_m_per_s;
+  }
+}
+
+TEST(PersonTracks, KeepWhoStandsStillBetweenDetections) {
+  Person person = walker();
+  person.velocity_m_per_s.setZero();
+  const Film film(room().person(person), 60, drifting);
+  PersonTracks tracks = new_tracks();
+  for (int i = 0; i < film.size(); ++i) {
+    film.begin(tracks, i);
+    if (i % 20 == 0) tracks.add_detections(film.detections(i));
+    film.end(tracks, i);
+    ASSERT_GT(film.iou(tracks, i), 0.6) << i;
+  }
+}
+
+TEST(PersonTracks, FollowWhoWalksInBeforeHeIsDetected) {
+  Person person = walker();
+  person.feet = {-2.0F, kCameraHeightM, 2.5F};
+  person.velocity_m_per_s.x() = 1.0F;
+  const Film film(DepthScene().wall(4.5F).floor().person(person), 60);
   PersonTracks tracks = new_tracks();
   for (int i = 0; i < film.size(); ++i) {
     film.begin(tracks, i);
     film.end(tracks, i);
   }
-  EXPECT_TRUE(tracks.tracks().empty());
-  tracks.add_detections(film.detections(3));
-  ASSERT_EQ(tracks.tracks().size(), 1U);
-  EXPECT_GT(film.iou(tracks, film.size() - 1), 0.5);
+  EXPECT_GT(film.iou(tracks, film.size() - 1), 0.4);
+}
+
+TEST(PersonTracks, TakeNoFurnitureForSomebody) {
+  const auto path = [](double t) { return scene::world_from_camera_at(0.3 * t, 0.0, 0.2 * t, 0.2 * t); };
+  const Film film(room().block({-1.2F, -0.6F, 2.6F}, {-0.6F, 1.2F, 3.0F}), 45, path);
+  PersonTracks tracks = new_tracks();
+  int cells = 0;
+  for (int i = 0; i < film.size(); ++i) {
+    film.begin(tracks, i);
+    cells += cv::countNonZero(tracks.labels());
+    film.end(tracks, i);
+  }
+  EXPECT_LT(cells / film.size(), tracks.camera().n_cells() / 100);
 }
 
 TEST(PersonTracks, ReplayWithTheMotionThatWasFoundInTheEnd) {

@@ -146,10 +146,22 @@ void enter_people(const std::vector<GridSurface>& moved, Prediction& prediction)
   }
 }
 
+/// The part of a predicted surface that something nearer hides: it is carried on unseen.
+GridSurface hidden_part(const FrameStep& step, const GridSurface& moved) {
+  GridSurface hidden;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const float depth_m = step.depth_m(moved.cells[i]);
+    if (depth_m > 0.0F && depth_m < moved.depth_m[i] - agreement_m(moved.depth_m[i], step.dt_s))
+      hidden.add(moved.cells[i], moved.depth_m[i]);
+  }
+  return hidden;
+}
+
 void settle(const FrameStep& step, const GridSurface& moved, GridSurface found, std::size_t n_agreeing,
             const Prediction& prediction, PersonTrack& track) {
-  const bool seen = found.size() >= kMinCells &&
-                    static_cast<float>(n_agreeing) >= kFoundShare * static_cast<float>(moved.size());
+  const GridSurface hidden = hidden_part(step, moved);
+  const auto expected = static_cast<float>(moved.size() - hidden.size());
+  const bool seen = found.size() >= kMinCells && static_cast<float>(n_agreeing) >= kFoundShare * expected;
   track.visible = std::move(found);
   if (!seen) {
     track.shape = moved;
@@ -172,6 +184,7 @@ void settle(const FrameStep& step, const GridSurface& moved, GridSurface found, 
     measure_velocity(measured, {kUnmeasured, kUnmeasured, sigma}, track);
   }
   track.shape = track.visible;
+  for (std::size_t i = 0; i < hidden.size(); ++i) track.shape.add(hidden.cells[i], hidden.depth_m[i]);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ class Walk {
                       const Eigen::Vector3f& velocity_m_per_s = Eigen::Vector3f::Zero()) {
     tracks_.push_back(scene::track_of(view_, number));
     tracks_.back().velocity_m_per_s = velocity_m_per_s;
-    tracks_.back().velocity_known = true;
+    tracks_.back().velocity_variance.setConstant(0.01F);
     return tracks_.back();
   }
   void add_noise(std::uint64_t seed) { noise_.emplace(seed); }

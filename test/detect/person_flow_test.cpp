@@ -54,10 +54,16 @@ void expect_near(const Eigen::Vector3f& found, const Eigen::Vector3f& truth) {
   EXPECT_LT((found - truth).norm(), 0.1F * truth.norm()) << found.transpose() << " for " << truth.transpose();
 }
 
+/// Of a new track.
+void expect_unmeasured(const PersonTrack& track) {
+  EXPECT_EQ(track.velocity_m_per_s, PersonTrack{}.velocity_m_per_s);
+  EXPECT_EQ(track.velocity_variance, PersonTrack{}.velocity_variance);
+}
+
 TEST_F(PersonFlowTest, MeasuresTheVelocity) {
   add_points(30, {1.2, 0.1, -0.5});
   follow();
-  EXPECT_TRUE(tracks_[0].velocity_known);
+  EXPECT_TRUE(is_walking(tracks_[0]));
   expect_near(tracks_[0].velocity_m_per_s, {1.2F, 0.1F, -0.5F});
 }
 
@@ -86,14 +92,14 @@ TEST_F(PersonFlowTest, BelievesNobodyWhenAllDisagree) {
 TEST_F(PersonFlowTest, APairOfMatchesChangesNothing) {
   add_points(2, {1.0, 0.0, 0.3});
   follow();
-  EXPECT_FALSE(tracks_[0].velocity_known);
+  expect_unmeasured(tracks_[0]);
   EXPECT_EQ(tracks_[0].velocity_m_per_s, Eigen::Vector3f::Zero());
 }
 
 TEST_F(PersonFlowTest, WhatLooksDifferentIsNoMatch) {
   add_points(30, {1.0, 0.0, 0.0}, 120);
   follow();
-  EXPECT_FALSE(tracks_[0].velocity_known);
+  expect_unmeasured(tracks_[0]);
 }
 
 TEST_F(PersonFlowTest, WhatLooksAlikeEverywhereIsNoMatch) {
@@ -101,7 +107,7 @@ TEST_F(PersonFlowTest, WhatLooksAlikeEverywhereIsNoMatch) {
   for (Descriptor& d : previous_.descriptors) d = previous_.descriptors[0];
   for (Descriptor& d : current_.descriptors) d = previous_.descriptors[0];
   follow();
-  EXPECT_FALSE(tracks_[0].velocity_known);
+  expect_unmeasured(tracks_[0]);
 }
 
 TEST_F(PersonFlowTest, APatternThatRepeatsExactlyIsNoMatch) {
@@ -115,29 +121,30 @@ TEST_F(PersonFlowTest, APatternThatRepeatsExactlyIsNoMatch) {
   }
   current_ = previous_;
   follow();
-  EXPECT_FALSE(tracks_[0].velocity_known);
+  expect_unmeasured(tracks_[0]);
 }
 
 TEST_F(PersonFlowTest, TheRoomsKeypointsPlayNoPart) {
   add_points(30, {1.0, 0.0, 0.0});
   people_.setTo(0);
   follow();
-  EXPECT_FALSE(tracks_[0].velocity_known);
+  expect_unmeasured(tracks_[0]);
 }
 
 TEST_F(PersonFlowTest, KeypointsWithoutDepthPlayNoPart) {
   add_points(30, {1.0, 0.0, 0.0});
   for (std::size_t i = 0; i < 30; ++i) (i % 2 == 0 ? previous_ : current_).keypoints[i].depth_m = 0.0F;
   follow();
-  EXPECT_FALSE(tracks_[0].velocity_known);
+  expect_unmeasured(tracks_[0]);
 }
 
 TEST_F(PersonFlowTest, ComesCloserToTheVelocityFrameByFrame) {
-  tracks_[0].velocity_known = true;
+  tracks_[0].velocity_variance.setConstant(0.02F);
   tracks_[0].velocity_m_per_s = {0.4F, 0.0F, 0.0F};
   add_points(30, {1.0, 0.0, 0.0});
   float off = 0.6F;
   for (int i = 0; i < 6; ++i) {
+    age_velocity(kStepS, tracks_[0]);
     follow();
     const float now = std::abs(tracks_[0].velocity_m_per_s.x() - 1.0F);
     EXPECT_LE(now, off + 1e-3F);
@@ -151,13 +158,13 @@ TEST_F(PersonFlowTest, TellsPeopleApart) {
   tracks_[1].number = 7;
   add_points(20, {1.0, 0.0, 0.0});
   follow();
-  EXPECT_TRUE(tracks_[0].velocity_known);
-  EXPECT_FALSE(tracks_[1].velocity_known);
+  EXPECT_TRUE(is_walking(tracks_[0]));
+  expect_unmeasured(tracks_[1]);
   people_.setTo(7, people_ == 3);
   tracks_[0] = PersonTrack{};
   tracks_[0].number = 3;
   follow();
-  EXPECT_FALSE(tracks_[0].velocity_known);
+  expect_unmeasured(tracks_[0]);
   expect_near(tracks_[1].velocity_m_per_s, {1.0F, 0.0F, 0.0F});
 }
 
@@ -169,7 +176,7 @@ TEST_F(PersonFlowTest, NoTimeIsNoVelocity) {
 
 TEST_F(PersonFlowTest, NoKeypointsChangeNothing) {
   follow();
-  EXPECT_FALSE(tracks_[0].velocity_known);
+  expect_unmeasured(tracks_[0]);
 }
 
 }  // namespace

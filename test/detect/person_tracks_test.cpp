@@ -355,7 +355,7 @@ TEST(PersonTracks, LearnTheVelocityFromKeypoints) {
     film.end(tracks, i);
   }
   ASSERT_EQ(tracks.tracks().size(), 1U);
-  EXPECT_TRUE(tracks.tracks()[0].velocity_known);
+  EXPECT_TRUE(is_walking(tracks.tracks()[0]));
   EXPECT_NEAR(tracks.tracks()[0].velocity_m_per_s.x(), 0.6F, 0.06F);
 }
 

@@ -28,6 +28,7 @@ TruthOptions short_run(const char* preset) {
   TruthOptions options;
   options.preset = preset;
   options.n_frames = 40;
+  options.n_people = 5;
   return options;
 }
 
@@ -35,9 +36,13 @@ TEST(FilterTruth, PeopleWalkBeforeAMovingCamera) {
   expect_works(short_run("walking_xyz"));
 }
 
-TEST(FilterTruth, PeopleWalkBeforeATurningCameraAndDetectionsAreSeldomAndLate) {
-  TruthOptions options = short_run("walking_rpy");
-  options.n_frames = 60;
+TEST(FilterTruth, PeopleWalkBeforeATurningCamera) {
+  expect_works(short_run("walking_rpy"));
+}
+
+TEST(FilterTruth, DetectionsAreSeldomLateAndInexact) {
+  // Before a still camera: who comes into a turning one's view cannot be known before he is detected.
+  TruthOptions options = short_run("walking_static");
   options.detection_rate_hz = 6.0;
   options.detection_delay_s = 0.15;
   options.box_jitter = 0.03;

@@ -330,12 +330,13 @@ TEST(PersonTracks, LearnTheVelocityFromKeypoints) {
   const Person person = walker();
   const Film film(room().person(person), 4);
   const PinholeCamera camera(scene::camera_settings());
+  const GridCamera grid(camera);
   // Points all over him that move along with him.
   Random random(3);
   std::vector<Eigen::Vector3d> points;
   std::vector<Descriptor> looks;
   for (const DepthKeypoint& k : scene::keypoints_on(film.views[0], 2)) {
-    if (film.views[0].owner(scene::grid_camera().cell_of_pixel(k.x, k.y)) != 1) continue;
+    if (film.views[0].owner(grid.cell_of_pixel(k.x, k.y)) != 1) continue;
     points.push_back(camera.back_project({double(k.x), double(k.y)}, double(k.depth_m)));
     looks.push_back(synthetic::random_descriptor(random));
   }

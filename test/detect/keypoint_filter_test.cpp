@@ -37,7 +37,7 @@ class KeypointFilterTest : public testing::Test {
   }
   [[nodiscard]] bool on_person(float x, float y, float depth) const {
     const DepthKeypoint keypoint{x, y, depth};
-    return find_keypoints_on_people(camera, depth_m, tracks, {&keypoint, 1}).at(0) != 0;
+    return find_keypoints_on_people(camera, depth_m, tracks, 0.0, {&keypoint, 1}).at(0) != 0;
   }
 
   GridCamera camera = scene::grid_camera();
@@ -90,6 +90,17 @@ TEST_F(KeypointFilterTest, RemovesWhatHasNoDepthInTheHoleOfHisBox) {
   EXPECT_FALSE(on_person(120.0F, 350.0F, 0.0F));
 }
 
+TEST_F(KeypointFilterTest, ADepthImageThatIsOlderThanTheColourImageMissesWhereHeHasGone) {
+  tracks[0].velocity_m_per_s = {1.2F, 0.0F, 0.0F};
+  tracks[0].velocity_variance.setConstant(0.01F);
+  // In 50 ms he walks 6 cm, which are 16 px at 2 m.
+  const DepthKeypoint gone_on{170.0F, 160.0F, 2.0F};
+  EXPECT_EQ(find_keypoints_on_people(camera, depth_m, tracks, 0.0, {&gone_on, 1}).at(0), 0);
+  EXPECT_EQ(find_keypoints_on_people(camera, depth_m, tracks, 0.05, {&gone_on, 1}).at(0), 1);
+  const DepthKeypoint far_off{200.0F, 160.0F, 4.0F};
+  EXPECT_EQ(find_keypoints_on_people(camera, depth_m, tracks, 0.05, {&far_off, 1}).at(0), 0);
+}
+
 TEST_F(KeypointFilterTest, AtTheImagesBorders) {
   for (const auto& [x, y] : {std::pair{0.0F, 0.0F}, {639.0F, 0.0F}, {0.0F, 479.0F}, {639.4F, 479.4F}}) {
     EXPECT_FALSE(on_person(x, y, 4.0F));
@@ -101,7 +112,7 @@ TEST_F(KeypointFilterTest, NobodyIsNothingToRemove) {
   tracks.clear();
   EXPECT_FALSE(on_person(120.0F, 160.0F, 2.0F));
   EXPECT_FALSE(on_person(120.0F, 160.0F, 0.0F));
-  EXPECT_TRUE(find_keypoints_on_people(camera, depth_m, tracks, {}).empty());
+  EXPECT_TRUE(find_keypoints_on_people(camera, depth_m, tracks, 0.0, {}).empty());
 }
 
 TEST(KeypointFilter, TellsAPersonFromTheRoomAllOver) {
@@ -114,7 +125,7 @@ TEST(KeypointFilter, TellsAPersonFromTheRoomAllOver) {
                         .look(camera);
   const std::vector<PersonTrack> tracks{scene::track_of(view, 1), scene::track_of(view, 2)};
   const std::vector<DepthKeypoint> keypoints = scene::keypoints_on(view, 1);
-  const auto marks = find_keypoints_on_people(camera, view.depth_m, tracks, keypoints);
+  const auto marks = find_keypoints_on_people(camera, view.depth_m, tracks, 0.0, keypoints);
   int missed = 0, lost = 0, people = 0;
   for (std::size_t i = 0; i < keypoints.size(); ++i) {
     const bool person = view.owner(camera.cell_of_pixel(keypoints[i].x, keypoints[i].y)) != 0;

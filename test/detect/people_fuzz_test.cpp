@@ -117,7 +117,7 @@ TEST(PeopleFuzz, KeypointsFarFromAllBoxesStay) {
     tracks.add_detections({0, 10.0, boxes});
     expect_sound(tracks);
     const auto marks =
-        find_keypoints_on_people(tracks.camera(), depth_m, tracks.tracks(), keypoints.keypoints);
+        find_keypoints_on_people(tracks.camera(), depth_m, tracks.tracks(), 0.0, keypoints.keypoints);
     for (std::size_t i = 0; i < marks.size(); ++i) {
       const DepthKeypoint& k = keypoints.keypoints[i];
       removed += marks[i];

@@ -27,7 +27,8 @@ struct FitInput {
 
   [[nodiscard]] std::vector<PersonFit> fit() const {
     Random random(seed);
-    return fit_people(scene::grid_camera(), {view.depth_m, people, still_age}, boxes, keypoints, random);
+    const StillSurface still{view.depth_m, still_age, still_age};
+    return fit_people(scene::grid_camera(), {view.depth_m, people, still}, boxes, keypoints, random);
   }
 };
 

@@ -18,7 +18,8 @@ class PersonGrowthTest : public testing::Test {
 
   GrownSurface grow(float mean_m = 2.0F, const KnownBox& known = {}) {
     const SdfModel model{mean_m, 0.1F, 0.25F, 0.5F};
-    const SceneEvidence scene{depth_m, people, still_age};
+    const StillSurface still{depth_m, still_age, still_age};
+    const SceneEvidence scene{depth_m, people, still};
     PersonGrowth growth(scene, taken);
     return growth.grow(model, box, prior(), background, known);
   }
@@ -162,7 +163,8 @@ TEST_F(PersonGrowthTest, FindsNothingWhereNoDepthFitsTheModel) {
 
 TEST_F(PersonGrowthTest, ServesSeveralBoxesOneAfterTheOther) {
   put(torso, 2.0F);
-  const SceneEvidence scene{depth_m, people, still_age};
+  const StillSurface still{depth_m, still_age, still_age};
+  const SceneEvidence scene{depth_m, people, still};
   PersonGrowth growth(scene, taken);
   const SdfModel model{2.0F, 0.1F, 0.25F, 0.5F};
   const std::vector<int> first = growth.grow(model, box, prior(), background, {}).cells;

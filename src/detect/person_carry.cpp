@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "detect/depth_grid.h"
 #include "detect/person_growth.h"
 #include "detect/still_surface.h"
 
@@ -47,20 +46,29 @@ float mean_depth_m(const GridSurface& surface) {
          static_cast<float>(surface.size());
 }
 
-cv::Point2f centre_px(const GridSurface& surface, int columns) {
-  cv::Point2f sum;
-  for (const int cell : surface.cells)
-    sum += cv::Point2f(static_cast<float>(cell % columns), static_cast<float>(cell / columns));
-  return sum *
-         (static_cast<float>(kDepthCellPx) / static_cast<float>(std::max<std::size_t>(1, surface.size())));
+/// How far a surface moves in the image, on average. Not from cell to cell: a person moves by less than one.
+Eigen::Vector2f mean_shift_px(const GridCamera& camera, const FloatTransform& move,
+                              const Eigen::Vector3f& offset, const GridSurface& surface) {
+  const Eigen::Vector2f scale(static_cast<float>(camera.camera().fx()),
+                              static_cast<float>(camera.camera().fy()));
+  Eigen::Vector2f sum = Eigen::Vector2f::Zero();
+  int n = 0;
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    const Eigen::Vector3f before = camera.point(surface.cells[i], surface.depth_m[i]);
+    const Eigen::Vector3f after = move * before + offset;
+    if (camera.cell_of(after) < 0) continue;
+    sum += after.head<2>() / after.z() - before.head<2>() / before.z();
+    ++n;
+  }
+  return sum.cwiseProduct(scale) / static_cast<float>(std::max(1, n));
 }
 
-void carry_box(const GridSurface& before, const GridSurface& after, int columns, PersonBox& box) {
+void carry_box(const GridSurface& before, const GridSurface& after, const Eigen::Vector2f& shift_px,
+               PersonBox& box) {
   if (before.size() < kMinCells || after.size() < kMinCells) return;
-  const cv::Point2f shift = centre_px(after, columns) - centre_px(before, columns);
   const auto scale = static_cast<double>(mean_depth_m(before) / mean_depth_m(after));
-  const double x = box.x + 0.5 * box.width + static_cast<double>(shift.x);
-  const double y = box.y + 0.5 * box.height + static_cast<double>(shift.y);
+  const double x = box.x + 0.5 * box.width + static_cast<double>(shift_px.x());
+  const double y = box.y + 0.5 * box.height + static_cast<double>(shift_px.y());
   box.width *= scale;
   box.height *= scale;
   box.x = x - 0.5 * box.width;
@@ -140,10 +148,22 @@ void enter_people(const std::vector<GridSurface>& moved, Prediction& prediction)
   }
 }
 
+/// The part of a predicted surface that something nearer hides: it is carried on unseen.
+GridSurface hidden_part(const FrameStep& step, const GridSurface& moved) {
+  GridSurface hidden;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const float depth_m = step.depth_m(moved.cells[i]);
+    if (depth_m > 0.0F && depth_m < moved.depth_m[i] - agreement_m(moved.depth_m[i], step.dt_s))
+      hidden.add(moved.cells[i], moved.depth_m[i]);
+  }
+  return hidden;
+}
+
 void settle(const FrameStep& step, const GridSurface& moved, GridSurface found, std::size_t n_agreeing,
             const Prediction& prediction, PersonTrack& track) {
-  const bool seen = found.size() >= kMinCells &&
-                    static_cast<float>(n_agreeing) >= kFoundShare * static_cast<float>(moved.size());
+  const GridSurface hidden = hidden_part(step, moved);
+  const auto expected = static_cast<float>(moved.size() - hidden.size());
+  const bool seen = found.size() >= kMinCells && static_cast<float>(n_agreeing) >= kFoundShare * expected;
   track.visible = std::move(found);
   if (!seen) {
     track.shape = moved;
@@ -166,6 +186,7 @@ void settle(const FrameStep& step, const GridSurface& moved, GridSurface found, 
     measure_velocity(measured, {kUnmeasured, kUnmeasured, sigma}, track);
   }
   track.shape = track.visible;
+  for (std::size_t i = 0; i < hidden.size(); ++i) track.shape.add(hidden.cells[i], hidden.depth_m[i]);
 }
 
 }  // namespace
@@ -181,8 +202,9 @@ void carry_people(const GridCamera& camera, const FrameStep& step, std::vector<P
     track.velocity_m_per_s = move.rotation * track.velocity_m_per_s;
     age_velocity(step.dt_s, track);
     const auto dt_s = static_cast<float>(std::min(step.dt_s, kMaxStepS));
-    moved.push_back(move_surface(camera, move, track.velocity_m_per_s * dt_s, track.shape));
-    carry_box(track.shape, moved.back(), size.width, track.box);
+    const Eigen::Vector3f offset = track.velocity_m_per_s * dt_s;
+    moved.push_back(move_surface(camera, move, offset, track.shape));
+    carry_box(track.shape, moved.back(), mean_shift_px(camera, move, offset, track.shape), track.box);
   }
   enter_people(moved, prediction);
 

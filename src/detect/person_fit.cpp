@@ -156,6 +156,10 @@ float outline_match(const std::vector<int>& cells, int columns, const cv::Rect& 
 }
 
 cv::Rect cells_of_box(const GridCamera& camera, const PersonBox& box) {
+  // A caller's detector may bring anything.
+  const bool is_box = std::isfinite(box.x) && std::isfinite(box.y) && std::isfinite(box.width) &&
+                      std::isfinite(box.height) && box.width > 0.0 && box.height > 0.0;
+  if (!is_box) return {};
   const auto cell = [](double px, int most) {
     return static_cast<int>(std::clamp(px / kDepthCellPx, 0.0, static_cast<double>(most)));
   };

@@ -38,7 +38,8 @@ struct PersonFit {
 /// (ascending).
 [[nodiscard]] float outline_match(const std::vector<int>& cells, int columns, const cv::Rect& box_cells);
 
-/// Cells of the grid that a box covers, at least one; empty when it lies outside the image.
+/// Cells of the grid that a box covers, at least one; empty when it lies outside the image, or is no box: a
+/// size not above zero, a number not finite.
 [[nodiscard]] cv::Rect cells_of_box(const GridCamera& camera, const PersonBox& box);
 
 }  // namespace cpslam

@@ -71,7 +71,7 @@ class Flow {
         second_distance = std::min(second_distance, distance);
       }
     }
-    return static_cast<float>(best_distance) <= kRatio * static_cast<float>(second_distance) ? best : -1;
+    return static_cast<float>(best_distance) < kRatio * static_cast<float>(second_distance) ? best : -1;
   }
 
   [[nodiscard]] const Eigen::Vector3f& point(int i) const { return points_[static_cast<std::size_t>(i)]; }

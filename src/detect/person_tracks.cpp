@@ -35,6 +35,7 @@ void PersonTracks::add_detections(const Detections& detections) {
                                   [&](const FrameState& state) { return state.frame == detections.frame; });
   if (found == frames_.end()) return;
   found->boxes = detections.boxes;
+  std::erase_if(found->boxes, [this](const PersonBox& box) { return cells_of_box(camera_, box).empty(); });
   found->detected = true;
   apply_boxes(*found);
   for (auto i = static_cast<std::size_t>(found - frames_.begin()) + 1; i < frames_.size(); ++i) {

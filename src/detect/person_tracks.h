@@ -30,7 +30,8 @@ class PersonTracks {
   void begin_frame(std::uint64_t frame, double time_s, const cv::Mat1f& depth_m,
                    const SE3& this_from_previous);
   void set_keypoints(FlowKeypoints keypoints);
-  /// Ignored when the frame is further back than kHistoryS or came before the first.
+  /// Ignored when the frame is further back than kHistoryS or came before the first; so are boxes that cover
+  /// nothing of the image, or are none (a size not above zero, a number not finite).
   void add_detections(const Detections& detections);
   /// pose_known: else the motion is only what was expected.
   void end_frame(const SE3& this_from_previous, bool pose_known);

@@ -125,13 +125,16 @@ FilterTruth measure_filter(const TruthOptions& options) {
     for (; !on_their_way.empty() && on_their_way.front().first <= frame.time_s + 1e-6;
          on_their_way.pop_front())
       tracks.add_detections(on_their_way.front().second);
-    if (frame.time_s - simulation.time_s(0) < options.detection_delay_s + 0.1)
-      continue;  // nobody was seen yet
-    count(keypoints.keypoints,
-          find_keypoints_on_people(tracks.camera(), tracks.depth_m(), tracks.tracks(), 0.0, keypoints.keypoints),
-          frame.person_mask != 0, frame.boxes(), truth);
-    compare_masks(person_mask(tracks.camera(), tracks.tracks(), frame.depth, metres_per_unit),
-                  frame.person_mask, truth);
+    const bool somebody_was_seen = frame.time_s - simulation.time_s(0) >= options.detection_delay_s + 0.1;
+    if (somebody_was_seen) {
+      count(keypoints.keypoints,
+            find_keypoints_on_people(tracks.camera(), tracks.depth_m(), tracks.tracks(), 0.0,
+                                     keypoints.keypoints),
+            frame.person_mask != 0, frame.boxes(), truth);
+      compare_masks(person_mask(tracks.camera(), tracks.tracks(), frame.depth, metres_per_unit),
+                    frame.person_mask, truth);
+    }
+    tracks.end_frame(moved, true);
   }
   return truth;
 }

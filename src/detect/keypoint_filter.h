@@ -22,12 +22,19 @@ namespace cpslam {
                                                                  double depth_lag_s,
                                                                  std::span<const DepthKeypoint> keypoints);
 
-/// The same by deleting all that is in a box.
+/// Of the keypoints, those on the surface of people who have not moved for a second or more (1): as good as
+/// furniture, for now. still_age: StillSurface::age. The depths say so cell by cell, and the flow of his
+/// keypoints for the whole person: a flat torso that slides sideways looks still to the depth camera.
+[[nodiscard]] std::vector<std::uint8_t> find_keypoints_on_resting_people(
+    const GridCamera& camera, const cv::Mat1b& still_age, const std::vector<PersonTrack>& tracks,
+    std::span<const DepthKeypoint> keypoints);
+
+/// The keypoints on people by deleting all that is in a box.
 [[nodiscard]] std::vector<std::uint8_t> find_keypoints_in_boxes(std::span<const PersonBox> boxes,
                                                                 std::span<const DepthKeypoint> keypoints);
 
-/// The same by Algorithm 1 of the CP-SLAM paper as literally as it can be read (docs/method.md): for
-/// comparison.
+/// The keypoints on people by Algorithm 1 of the CP-SLAM paper as literally as it can be read
+/// (docs/method.md): for comparison.
 [[nodiscard]] std::vector<std::uint8_t> find_keypoints_as_published(std::span<const PersonBox> boxes,
                                                                     std::span<const DepthKeypoint> keypoints,
                                                                     Random& random);

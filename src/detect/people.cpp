@@ -140,6 +140,7 @@ std::vector<std::uint8_t> People::judge(const std::vector<DepthKeypoint>& keypoi
     case PeopleFilter::kSdf:
       marks = find_keypoints_on_people(tracks_.camera(), tracks_.depth_m(), tracks_.tracks(), depth_lag_s_,
                                        keypoints);
+      if (settings_.people.reinstate_still) reinstate(keypoints, marks);
       break;
     case PeopleFilter::kPaper:
       marks = find_keypoints_as_published(boxes_, keypoints, random_);
@@ -150,6 +151,17 @@ std::vector<std::uint8_t> People::judge(const std::vector<DepthKeypoint>& keypoi
   }
   add_moving_mask(keypoints, marks);
   return marks;
+}
+
+void People::reinstate(const std::vector<DepthKeypoint>& keypoints, std::vector<std::uint8_t>& marks) {
+  const std::vector<std::uint8_t> resting =
+      find_keypoints_on_resting_people(tracks_.camera(), tracks_.still().age, tracks_.tracks(), keypoints);
+  last_reinstated_ = 0;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    if (marks[i] == 0 || resting[i] == 0) continue;
+    marks[i] = 0;
+    ++last_reinstated_;
+  }
 }
 
 void People::add_moving_mask(const std::vector<DepthKeypoint>& keypoints,
@@ -186,6 +198,7 @@ cv::Mat People::excluded() const {
 void People::end(const SE3& motion, bool pose_known) {
   counts_.keypoints += last_candidates_;
   counts_.removed_keypoints += last_removed_;
+  counts_.reinstated_keypoints += last_reinstated_;
   if (!active_ || !uses_tracks()) return;
   const auto scope = timer_.time("people: look for movers");
   tracks_.end_frame(motion, pose_known);

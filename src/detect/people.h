@@ -59,6 +59,7 @@ class People {
   void collect_boxes();
   [[nodiscard]] bool uses_tracks() const { return settings_.people.filter == PeopleFilter::kSdf; }
   [[nodiscard]] std::vector<std::uint8_t> judge(const std::vector<DepthKeypoint>& keypoints);
+  void reinstate(const std::vector<DepthKeypoint>& keypoints, std::vector<std::uint8_t>& marks);
   void add_moving_mask(const std::vector<DepthKeypoint>& keypoints, std::vector<std::uint8_t>& marks) const;
 
   const Settings settings_;
@@ -82,7 +83,7 @@ class People {
   // statistics
   PeopleStatistics counts_;
   std::size_t n_callers_boxes_ = 0;
-  std::size_t last_candidates_ = 0, last_removed_ = 0;
+  std::size_t last_candidates_ = 0, last_removed_ = 0, last_reinstated_ = 0;
   std::size_t frames_with_boxes_ = 0;
   double boxes_age_sum_s_ = 0.0;
 };

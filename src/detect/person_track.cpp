@@ -24,6 +24,11 @@ bool is_walking(const PersonTrack& track) {
   return speed > kWalkingMPerS && speed > 2.0F * std::sqrt(track.velocity_variance.maxCoeff());
 }
 
+bool is_resting(const PersonTrack& track) {
+  constexpr float kRestingMPerS = 0.2F;
+  return track.velocity_m_per_s.norm() + std::sqrt(track.velocity_variance.maxCoeff()) < kRestingMPerS;
+}
+
 cv::Mat1b paint_people(const std::vector<PersonTrack>& tracks, cv::Size grid_size) {
   cv::Mat1b labels(grid_size, std::uint8_t{0});
   for (const PersonTrack& track : tracks) {

@@ -49,6 +49,9 @@ void measure_velocity(const Eigen::Vector3f& measured_m_per_s, const Eigen::Vect
 /// Whether he certainly moves.
 [[nodiscard]] bool is_walking(const PersonTrack& track);
 
+/// Whether he certainly does not move as a whole.
+[[nodiscard]] bool is_resting(const PersonTrack& track);
+
 /// The number of the person at each cell, 0 where there is none.
 [[nodiscard]] cv::Mat1b paint_people(const std::vector<PersonTrack>& tracks, cv::Size grid_size);
 

@@ -40,6 +40,7 @@ class PersonTracks {
   /// The number of the person at each cell of the grid, 0 where there is none.
   [[nodiscard]] cv::Mat1b labels() const { return paint_people(tracks(), camera_.size()); }
   [[nodiscard]] const cv::Mat1f& depth_m() const { return frames_.back().depth_m; }
+  [[nodiscard]] const StillSurface& still() const { return frames_.back().still; }
   [[nodiscard]] const GridCamera& camera() const { return camera_; }
 
   /// Boxes that come later than this after their image are of no use.

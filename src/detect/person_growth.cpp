@@ -59,7 +59,7 @@ GrownSurface PersonGrowth::grow(const SdfModel& model, const cv::Rect& box_cells
   int leaks = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (static_cast<std::ptrdiff_t>(i) != largest - weights.begin()) {
-      const bool large = weights[i] >= enough && !he_moves;
+      const bool large = weights[i] >= enough && (!he_moves || was_his(pieces[i]));
       if (!moves(pieces[i]) && (!large || leaks_much(pieces[i]))) continue;
     }
     leaks += count_leaks(pieces[i]);
@@ -99,6 +99,12 @@ float PersonGrowth::arrived_share(const std::vector<int>& cells) const {
 
 bool PersonGrowth::moves(const std::vector<int>& piece) const {
   return piece.size() >= kMinMovingCells && arrived_share(piece) >= kMovingShare;
+}
+
+bool PersonGrowth::was_his(const std::vector<int>& piece) const {
+  const auto n = std::count_if(piece.begin(), piece.end(),
+                               [this](int cell) { return scene_.people(cell) == known_.number; });
+  return known_.number != 0 && 2 * n > static_cast<std::ptrdiff_t>(piece.size());
 }
 
 bool PersonGrowth::leaks_much(const std::vector<int>& piece) const {

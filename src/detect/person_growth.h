@@ -46,6 +46,7 @@ class PersonGrowth {
   [[nodiscard]] float still_share(const std::vector<int>& cells) const;
   [[nodiscard]] float arrived_share(const std::vector<int>& cells) const;
   [[nodiscard]] bool moves(const std::vector<int>& piece) const;
+  [[nodiscard]] bool was_his(const std::vector<int>& piece) const;
   [[nodiscard]] bool leaks_much(const std::vector<int>& piece) const;
   [[nodiscard]] bool in_band(float depth_m) const;
   [[nodiscard]] int count_leaks(const std::vector<int>& cells) const;

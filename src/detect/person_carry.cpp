@@ -11,7 +11,9 @@
 namespace cpslam {
 namespace {
 
-constexpr float kFoldM = 0.05F;        // of clothes and between limbs
+constexpr float kFoldM = 0.05F;  // of clothes and between limbs
+constexpr float kBodyM =
+    0.35F;  // before and behind his middle, where nothing has arrived: no walking over the floor
 constexpr int kGrowthCells = 2;        // an outline moves no further between two frames, once carried
 constexpr float kFoundShare = 0.3F;    // of the predicted surface: less, and something hides the person
 constexpr float kDepthShiftM = 0.02F;  // uncertainty of the median between found and predicted depths
@@ -87,6 +89,7 @@ class Finder {
       if (prediction_.person(cell) == index && taken_(cell) == 0 && agrees(cell)) take(cell);
     }
     n_agreeing_ = found_.size();
+    mean_m_ = mean_depth_m(found_);
     std::size_t begin = 0;
     for (int round = 0; round < kGrowthCells; ++round) {
       const std::size_t end = found_.size();
@@ -125,6 +128,7 @@ class Finder {
         continue;
       const std::uint8_t other = prediction_.person(next);
       if ((other != 0 && other != index) || !is_recent(there)) continue;
+      if (!has_arrived(there) && std::abs(depth_m - mean_m_) > kBodyM) continue;
       take(there);
     }
   }
@@ -134,6 +138,7 @@ class Finder {
   cv::Mat1b taken_;
   GridSurface found_;
   std::size_t n_agreeing_ = 0;
+  float mean_m_ = 0.0F;  // depth of the person at hand
 };
 
 void enter_people(const std::vector<GridSurface>& moved, Prediction& prediction) {

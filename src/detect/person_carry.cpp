@@ -14,7 +14,7 @@ namespace {
 constexpr float kFoldM = 0.05F;  // of clothes and between limbs
 constexpr float kBodyM =
     0.35F;  // before and behind his middle, where nothing has arrived: no walking over the floor
-constexpr int kGrowthCells = 2;        // an outline moves no further between two frames, once carried
+constexpr int kGrowthCells = 3;        // an outline moves no further between two frames, once carried
 constexpr float kFoundShare = 0.3F;    // of the predicted surface: less, and something hides the person
 constexpr float kDepthShiftM = 0.02F;  // uncertainty of the median between found and predicted depths
 constexpr std::size_t kMinCells = 6;
@@ -83,8 +83,9 @@ class Finder {
   Finder(const FrameStep& step, const Prediction& prediction)
       : step_(step), prediction_(prediction), taken_(step.depth_m.size(), std::uint8_t{0}) {}
 
-  GridSurface find(std::uint8_t index, const GridSurface& predicted) {
+  GridSurface find(std::uint8_t index, const GridSurface& predicted, int recent_age) {
     found_.clear();
+    recent_age_ = recent_age;
     for (const int cell : predicted.cells) {
       if (prediction_.person(cell) == index && taken_(cell) == 0 && agrees(cell)) take(cell);
     }
@@ -108,7 +109,7 @@ class Finder {
     return std::abs(depth_m - prediction_.person_m(cell)) < agreement_m(depth_m, step_.dt_s);
   }
   [[nodiscard]] bool is_still(int cell) const { return step_.still_age(cell) >= StillSurface::kStillAge; }
-  [[nodiscard]] bool is_recent(int cell) const { return step_.still_age(cell) <= StillSurface::kRecentAge; }
+  [[nodiscard]] bool is_recent(int cell) const { return step_.still_age(cell) <= recent_age_; }
   [[nodiscard]] bool has_arrived(int cell) const { return step_.still_age(cell) < StillSurface::kUnknownAge; }
   void take(int cell) {
     taken_(cell) = 1;
@@ -138,6 +139,7 @@ class Finder {
   cv::Mat1b taken_;
   GridSurface found_;
   std::size_t n_agreeing_ = 0;
+  int recent_age_ = 0;   // up to which a surface may be his
   float mean_m_ = 0.0F;  // depth of the person at hand
 };
 
@@ -220,7 +222,9 @@ void carry_people(const GridCamera& camera, const FrameStep& step, std::vector<P
   });
   Finder finder(step, prediction);
   for (const std::size_t t : nearest_first) {
-    GridSurface found = finder.find(static_cast<std::uint8_t>(t + 1), moved[t]);
+    const int recent_age =
+        std::max<int>(StillSurface::kRecentAge, passing_frames(tracks[t], std::max(step.dt_s, 1e-3)));
+    GridSurface found = finder.find(static_cast<std::uint8_t>(t + 1), moved[t], recent_age);
     settle(step, moved[t], std::move(found), finder.n_agreeing(), prediction, tracks[t]);
   }
 }

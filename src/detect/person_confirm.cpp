@@ -22,8 +22,6 @@ constexpr double kHiddenS = 0.7;     // behind somebody else, say
 constexpr double kUnseenBoxS = 0.2;  // a box without any depth cannot be carried
 constexpr double kUndetectedS = 5.0;
 constexpr int kMinContacts = 3;
-constexpr double kBodyWidthM = 0.5;
-constexpr double kMostFrames = 60.0;
 constexpr std::size_t kMaxPeople = 254;
 
 double area(const PersonBox& box) {
@@ -248,8 +246,7 @@ void add_blobs(const cv::Mat1f& depth_m, const std::vector<GridSurface>& blobs, 
 void drop_what_stays(const StillSurface& still, double dt_s, std::vector<PersonTrack>& tracks) {
   for (PersonTrack& track : tracks) {
     if (!is_walking(track) || dt_s <= 0.0) continue;
-    const double passing_s = kBodyWidthM / static_cast<double>(track.velocity_m_per_s.norm());
-    const double limit = std::clamp(passing_s / dt_s, double{StillSurface::kStillAge}, kMostFrames);
+    const int limit = passing_frames(track, dt_s);
     GridSurface moving;
     for (std::size_t i = 0; i < track.visible.size(); ++i) {
       if (still.age(track.visible.cells[i]) <= limit)

@@ -1,6 +1,9 @@
 #include "detect/person_track.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "detect/still_surface.h"
 
 namespace cpslam {
 
@@ -22,6 +25,15 @@ bool is_walking(const PersonTrack& track) {
   constexpr float kWalkingMPerS = 0.25F;
   const float speed = track.velocity_m_per_s.norm();
   return speed > kWalkingMPerS && speed > 2.0F * std::sqrt(track.velocity_variance.maxCoeff());
+}
+
+int passing_frames(const PersonTrack& track, double dt_s) {
+  constexpr double kBodyWidthM = 0.5;
+  constexpr double kFewest = StillSurface::kStillAge;
+  constexpr double kMost = 60.0;
+  if (!is_walking(track)) return StillSurface::kRecentAge;
+  return static_cast<int>(
+      std::clamp(kBodyWidthM / static_cast<double>(track.velocity_m_per_s.norm()) / dt_s, kFewest, kMost));
 }
 
 bool is_resting(const PersonTrack& track) {

@@ -49,6 +49,9 @@ void measure_velocity(const Eigen::Vector3f& measured_m_per_s, const Eigen::Vect
 /// Whether he certainly moves.
 [[nodiscard]] bool is_walking(const PersonTrack& track);
 
+/// For how many frames a part of him may look still while he passes by; dt_s: between frames, > 0. The same
+/// for all who do not walk.
+[[nodiscard]] int passing_frames(const PersonTrack& track, double dt_s);
 /// Whether he certainly does not move as a whole.
 [[nodiscard]] bool is_resting(const PersonTrack& track);
 

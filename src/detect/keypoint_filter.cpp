@@ -13,7 +13,7 @@ constexpr float kRimPx = 4.0F;         // a corner on the outline of a person li
 constexpr float kWalkingRimPx = 1.5F;  // around who walks, at any depth
 constexpr int kNoDepthRimCells = 3;    // the sensor's shadow beside a person has no depth
 constexpr int kNoDepthReachCells = 3;  // how far to look for a depth that tells
-constexpr int kRestFrames = 40;        // for which the surface must have stayed
+constexpr int kRestFrames = 90;        // for which the surface must have stayed
 constexpr int kPublishedHypotheses = 20;
 
 bool contains(const PersonBox& box, const DepthKeypoint& k) {
@@ -153,17 +153,21 @@ std::vector<std::uint8_t> find_keypoints_on_resting_people(const GridCamera& cam
                                                            const cv::Mat1b& still_age,
                                                            const std::vector<PersonTrack>& tracks,
                                                            std::span<const DepthKeypoint> keypoints) {
+  cv::Mat1b resting(camera.size(), std::uint8_t{0});
   cv::Mat1b restless(camera.size(), std::uint8_t{0});
   for (const PersonTrack& track : tracks) {
     const bool rests = is_resting(track);
-    for (const int cell : track.visible.cells)
-      restless(cell) = rests && still_age(cell) >= kRestFrames ? 0 : 1;
+    for (const int cell : track.visible.cells) {
+      const bool cell_rests = rests && still_age(cell) >= kRestFrames;
+      (cell_rests ? resting : restless)(cell) = 1;
+    }
   }
+  cv::dilate(resting, resting, cv::Mat());
   cv::dilate(restless, restless, cv::Mat());
   std::vector<std::uint8_t> marks(keypoints.size(), 0);
   std::transform(keypoints.begin(), keypoints.end(), marks.begin(), [&](const DepthKeypoint& k) {
     const int cell = k.depth_m > 0.0F ? camera.cell_of_pixel(k.x, k.y) : -1;
-    return static_cast<std::uint8_t>(cell >= 0 && restless(cell) == 0);
+    return static_cast<std::uint8_t>(cell >= 0 && resting(cell) != 0 && restless(cell) == 0);
   });
   return marks;
 }

@@ -22,7 +22,7 @@ namespace cpslam {
                                                                  double depth_lag_s,
                                                                  std::span<const DepthKeypoint> keypoints);
 
-/// Of the keypoints, those on the surface of people who have not moved for a second or more (1): as good as
+/// Of the keypoints, those on the surface of people who have not moved for some seconds (1): as good as
 /// furniture, for now. still_age: StillSurface::age. The depths say so cell by cell, and the flow of his
 /// keypoints for the whole person: a flat torso that slides sideways looks still to the depth camera.
 [[nodiscard]] std::vector<std::uint8_t> find_keypoints_on_resting_people(

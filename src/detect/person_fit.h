@@ -27,9 +27,10 @@ struct PersonFit {
 };
 
 /// Finds the person in every box: fit_sdf_model on the depths of keypoints and of grid cells inside the box,
-/// then growth of its inliers over depth-connected cells. Where boxes overlap, the nearer person is found
-/// first and what he covers takes no part in the next one's fit. The results are parallel to the boxes.
-/// Depths of people carried into the frame count for more, those of surfaces that have stood still for less.
+/// growth of its inliers over depth-connected cells, and of the surfaces found that way the one that ends
+/// where the box ends. Where boxes claim the same surface, the one whose outline it is gets it; what it
+/// covers takes no part in the next one's fit. The results are parallel to the boxes. Depths of people
+/// carried into the frame count for more, those of surfaces that have stood still for less.
 [[nodiscard]] std::vector<PersonFit> fit_people(const GridCamera& camera, const SceneEvidence& scene,
                                                 std::span<const KnownBox> boxes,
                                                 std::span<const DepthKeypoint> keypoints, Random& random);

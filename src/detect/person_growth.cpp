@@ -83,13 +83,6 @@ void PersonGrowth::add_moving(const cv::Rect& box_cells, int piece_number, Grown
   }
 }
 
-float PersonGrowth::still_share(const std::vector<int>& cells) const {
-  const auto still = std::count_if(cells.begin(), cells.end(), [this](int cell) {
-    return scene_.still.free_age(cell) >= StillSurface::kStillAge;
-  });
-  return static_cast<float>(still) / static_cast<float>(std::max<std::size_t>(1, cells.size()));
-}
-
 float PersonGrowth::arrived_share(const std::vector<int>& cells) const {
   const auto arrived = std::count_if(cells.begin(), cells.end(), [this](int cell) {
     return scene_.still.age(cell) < StillSurface::kUnknownAge;

@@ -43,7 +43,6 @@ class PersonGrowth {
   std::vector<int> flood(int seed, int number);
   void visit_neighbour(int from, int dx, int dy, int number, std::vector<int>& cells);
   [[nodiscard]] bool is_free(int x, int y) const;
-  [[nodiscard]] float still_share(const std::vector<int>& cells) const;
   [[nodiscard]] float arrived_share(const std::vector<int>& cells) const;
   [[nodiscard]] bool moves(const std::vector<int>& piece) const;
   [[nodiscard]] bool was_his(const std::vector<int>& piece) const;

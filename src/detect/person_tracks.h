@@ -15,11 +15,12 @@
 
 namespace cpslam {
 
-/// What is known of people from frame to frame, detections or not. Every frame goes through
-///   begin_frame     everybody is carried into the new depths; labels() is a prediction good for the
-///   extractor set_keypoints   their flow corrects the velocities add_detections  boxes of this frame or of
-///   an earlier one: then time is wound back to it and played again end_frame       the camera's motion as it
-///   was found in the end
+/// What is known of people from frame to frame, detections or not. Every frame goes through:
+///  - begin_frame: everybody is carried into the new depths; labels() is a prediction good for the extractor;
+///  - set_keypoints: their flow corrects the velocities;
+///  - add_detections: boxes of this frame or of an earlier one, then time is wound back to it and played
+///  again;
+///  - end_frame: the camera's motion as it was found in the end; it shows what else moves.
 /// One thread.
 class PersonTracks {
  public:

@@ -32,7 +32,7 @@ def parse(arguments):
                         help="run on this TUM-format sequence; may be given several times")
     parser.add_argument("--simulated", nargs="+", default=[], metavar="PRESET", help="run on these simulated rooms")
     parser.add_argument("--modes", nargs="+", choices=list(MODES), default=list(MODES))
-    parser.add_argument("--repeats", type=positive, help="runs per sequence and mode (default 5; people_wait 10)")
+    parser.add_argument("--repeats", type=positive, help="runs per sequence and mode (default 5; people_wait 10, people_cost 7)")
     parser.add_argument("--max-frames", type=positive, help="only the first frames of every sequence")
     trials = parser.add_mutually_exclusive_group()
     trials.add_argument("--full", action="store_true", help="add the long trials")
@@ -88,7 +88,7 @@ def make_plan(options):
     plan = types.SimpleNamespace(
         root=ROOT, build_dir=os.path.abspath(options.build_dir), programs=programs, work_dir=options.work_dir,
         output_dir=os.path.join(options.work_dir, "output"), modes=options.modes, repeats=options.repeats or 5,
-        wait_runs=options.repeats or 10, perturbations=options.perturbations, people_presets=options.people_presets,
+        wait_runs=options.repeats or 10, cost_runs=options.repeats or 7, perturbations=options.perturbations, people_presets=options.people_presets,
         data=options.data, datasets=options.datasets, figures=options.figures, keep=options.keep,
         paper_sequences=paper_names(options.paper_sequences), detector=detectors.from_text(options.detector_arguments),
         max_frames=options.max_frames, frames=options.frames, seeds=options.seeds, presets=options.presets,

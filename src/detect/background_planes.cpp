@@ -5,8 +5,6 @@
 #include <cmath>
 #include <optional>
 
-#include "camera/depth_noise.h"
-
 namespace cpslam {
 namespace {
 
@@ -23,7 +21,12 @@ constexpr double kMinShare = 0.06;  // of the ring
 struct RingCell {
   Eigen::Vector3f at;
   float depth_m;
+  float tolerance_m;
 };
+
+RingCell ring_cell(int x, int y, float depth_m) {
+  return {{static_cast<float>(x), static_cast<float>(y), 1.0F}, depth_m, GridPlane::tolerance_m(depth_m)};
+}
 
 std::vector<RingCell> cells_around(const cv::Mat1f& depth_m, const cv::Rect& box) {
   const cv::Rect ring = cv::Rect(box.x - kRingCells, box.y - kRingCells, box.width + 2 * kRingCells,
@@ -35,7 +38,7 @@ std::vector<RingCell> cells_around(const cv::Mat1f& depth_m, const cv::Rect& box
   for (int y = ring.y; y < ring.br().y; y += step) {
     for (int x = ring.x; x < ring.br().x; x += step) {
       if (box.contains({x, y}) || depth_m(y, x) <= 0.0F) continue;
-      cells.push_back({{static_cast<float>(x), static_cast<float>(y), 1.0F}, depth_m(y, x)});
+      cells.push_back(ring_cell(x, y, depth_m(y, x)));
     }
   }
   return cells;
@@ -46,7 +49,8 @@ GridPlane make_plane(const Eigen::Vector3f& p) {
 }
 
 bool on_plane(const GridPlane& plane, const RingCell& cell) {
-  return plane.contains(static_cast<int>(cell.at.x()), static_cast<int>(cell.at.y()), cell.depth_m);
+  const float inverse = plane.per_column * cell.at.x() + plane.per_row * cell.at.y() + plane.constant;
+  return inverse > 0.0F && std::abs(cell.depth_m - 1.0F / inverse) < cell.tolerance_m;
 }
 
 std::optional<GridPlane> through(const RingCell& a, const RingCell& b, const RingCell& c) {
@@ -104,7 +108,7 @@ class PlaneFinder {
     const cv::Point at(static_cast<int>(cell.at.x()) + dx, static_cast<int>(cell.at.y()) + offset());
     if (!cv::Rect({}, depth_m_.size()).contains(at) || box_.contains(at) || depth_m_(at) <= 0.0F)
       return std::nullopt;
-    return RingCell{{static_cast<float>(at.x), static_cast<float>(at.y), 1.0F}, depth_m_(at)};
+    return ring_cell(at.x, at.y, depth_m_(at));
   }
 
   const cv::Mat1f& depth_m_;
@@ -113,13 +117,6 @@ class PlaneFinder {
 };
 
 }  // namespace
-
-bool GridPlane::contains(int x, int y, float depth_m) const {
-  const float inverse = inverse_depth(x, y);
-  if (inverse <= 0.0F) return false;
-  const auto noise_m = static_cast<float>(structured_light_sigma_m(static_cast<double>(depth_m)));
-  return std::abs(depth_m - 1.0F / inverse) < 0.015F + 3.0F * noise_m;
-}
 
 std::vector<GridPlane> find_background_planes(const cv::Mat1f& depth_m, const cv::Rect& box_cells,
                                               Random& random) {

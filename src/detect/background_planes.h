@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "camera/depth_noise.h"
 #include "util/random.h"
 
 namespace cpslam {
@@ -15,7 +17,14 @@ struct GridPlane {
     return per_column * static_cast<float>(x) + per_row * static_cast<float>(y) + constant;
   }
   /// Whether a reading lies on the plane, within the sensor's noise there.
-  [[nodiscard]] bool contains(int x, int y, float depth_m) const;
+  [[nodiscard]] bool contains(int x, int y, float depth_m) const {
+    const float inverse = inverse_depth(x, y);
+    return inverse > 0.0F && std::abs(depth_m - 1.0F / inverse) < tolerance_m(depth_m);
+  }
+  /// How far a reading on a plane may be from it (m).
+  [[nodiscard]] static float tolerance_m(float depth_m) {
+    return 0.015F + 3.0F * static_cast<float>(structured_light_sigma_m(static_cast<double>(depth_m)));
+  }
 };
 
 /// The planes that dominate around a person's box, at most four: the floor he stands on, the wall behind

@@ -1,15 +1,6 @@
 #include "detect/grid_camera.h"
 
-#include <cmath>
-
-#include "detect/depth_grid.h"
-
 namespace cpslam {
-namespace {
-
-constexpr float kNearestM = 0.1F;
-
-}  // namespace
 
 GridCamera::GridCamera(const PinholeCamera& camera)
     : camera_(camera),
@@ -28,26 +19,10 @@ GridCamera::GridCamera(const PinholeCamera& camera)
   }
 }
 
-int GridCamera::cell_of(const Eigen::Vector3f& point_in_camera) const {
-  if (point_in_camera.z() < kNearestM) return -1;
-  const float inverse_z = 1.0F / point_in_camera.z();
-  const float u = fx_ * point_in_camera.x() * inverse_z + cx_;
-  const float v = fy_ * point_in_camera.y() * inverse_z + cy_;
-  if (!camera_.has_distortion()) return cell_of_pixel(u, v);
+int GridCamera::cell_of_undistorted(float u, float v) const {
   if (!camera_.in_image({static_cast<double>(u), static_cast<double>(v)})) return -1;
   const Eigen::Vector2d px = camera_.distort({static_cast<double>(u), static_cast<double>(v)});
   return cell_of_pixel(static_cast<float>(px.x()), static_cast<float>(px.y()));
-}
-
-int GridCamera::cell_of_pixel(float x, float y) const {
-  // A pixel's area reaches half a pixel around its coordinates.
-  const float column = std::floor((x + 0.5F) / static_cast<float>(kDepthCellPx));
-  const float row = std::floor((y + 0.5F) / static_cast<float>(kDepthCellPx));
-  if (!(column >= 0.0F) || !(row >= 0.0F) || column >= static_cast<float>(size_.width) ||
-      row >= static_cast<float>(size_.height)) {
-    return -1;
-  }
-  return static_cast<int>(row) * size_.width + static_cast<int>(column);
 }
 
 }  // namespace cpslam

@@ -40,14 +40,15 @@ std::vector<GridSurface> find_moving_blobs(const cv::Mat1f& depth_m, const cv::M
                                            const cv::Mat1b& people) {
   // 2: has arrived; 1: may be a part of it, 0: taken or none of it
   cv::Mat1b recent(depth_m.size(), std::uint8_t{0});
-  for (int cell = 0; cell < static_cast<int>(depth_m.total()); ++cell) {
+  const auto n_cells = static_cast<int>(depth_m.total());
+  for (int cell = 0; cell < n_cells; ++cell) {
     if (depth_m(cell) <= 0.0F || people(cell) != 0 || still_age(cell) > StillSurface::kRecentAge) continue;
     recent(cell) = still_age(cell) < StillSurface::kUnknownAge ? 2 : 1;
   }
   cv::Mat1b cores;
   cv::erode(recent == 2, cores, cv::Mat());
   std::vector<GridSurface> blobs;
-  for (int seed = 0; seed < static_cast<int>(cores.total()); ++seed) {
+  for (int seed = 0; seed < n_cells; ++seed) {
     if (cores(seed) == 0 || recent(seed) == 0) continue;
     GridSurface blob = flood(depth_m, seed, recent);
     if (blob.size() >= kMinCells) blobs.push_back(std::move(blob));

@@ -96,21 +96,21 @@ float still_share(const std::vector<int>& cells, const cv::Mat1b& still_age) {
 }
 
 /// Whether the fit found somebody or something else than who was carried here, who suits the box better.
-bool is_mistaken(const PersonFit& fit, const PersonTrack& track, const cv::Rect& box_cells, int columns) {
+bool is_mistaken(const PersonFit& fit, const cv::Mat1b& fitted, const PersonTrack& track,
+                 const cv::Rect& box_cells) {
   if (track.confirmations < kConfirmationsToTrust || track.visible.size() < kMinFitCells) return false;
-  const auto shared = std::count_if(track.visible.cells.begin(), track.visible.cells.end(), [&](int cell) {
-    return std::binary_search(fit.cells.begin(), fit.cells.end(), cell);
-  });
+  const auto shared = std::count_if(track.visible.cells.begin(), track.visible.cells.end(),
+                                    [&](int cell) { return fitted(cell) != 0; });
   const auto smaller = static_cast<float>(std::min(fit.cells.size(), track.visible.size()));
   if (static_cast<float>(shared) >= kMinOverlap * smaller) return false;
   std::vector<int> carried = track.visible.cells;
   std::sort(carried.begin(), carried.end());
-  return outline_match(carried, columns, box_cells) > fit.match;
+  return outline_match(carried, fitted.cols, box_cells) > fit.match;
 }
 
 /// The fit, and what was carried to the box or close to it and does not stand still: detectors' boxes cut off
 /// hands and feet, and fits lose limbs.
-void merge(const PersonFit& fit, const cv::Rect& box_cells, const cv::Mat1f& depth_m,
+void merge(const PersonFit& fit, const cv::Mat1b& fitted, const cv::Rect& box_cells, const cv::Mat1f& depth_m,
            const cv::Mat1b& still_age, PersonTrack& track) {
   const int reach_x = static_cast<int>(kAroundBox * static_cast<float>(box_cells.width));
   const int reach_y = static_cast<int>(kAroundBox * static_cast<float>(box_cells.height));
@@ -121,7 +121,7 @@ void merge(const PersonFit& fit, const cv::Rect& box_cells, const cv::Mat1f& dep
   for (const int cell : track.visible.cells) {
     const cv::Point at(cell % depth_m.cols, cell / depth_m.cols);
     if (!around.contains(at) || still_age(cell) >= StillSurface::kStillAge) continue;
-    if (!std::binary_search(fit.cells.begin(), fit.cells.end(), cell)) merged.add(cell, depth_m(cell));
+    if (fitted(cell) == 0) merged.add(cell, depth_m(cell));
   }
   track.visible = std::move(merged);
 }
@@ -132,10 +132,13 @@ void confirm(const GridCamera& camera, const PersonBox& box, const PersonFit& fi
   track.confirmed_s = time_s;
   ++track.confirmations;
   track.misses = 0;
-  if (fit.cells.size() < kMinFitCells || is_mistaken(fit, track, cells_of_box(camera, box), depth_m.cols))
-    return;
+  if (fit.cells.size() < kMinFitCells) return;
+  cv::Mat1b fitted(depth_m.size(), std::uint8_t{0});
+  for (const int cell : fit.cells) fitted(cell) = 1;
+  const cv::Rect box_cells = cells_of_box(camera, box);
+  if (is_mistaken(fit, fitted, track, box_cells)) return;
   track.seen_s = time_s;
-  merge(fit, cells_of_box(camera, box), depth_m, still_age, track);
+  merge(fit, fitted, box_cells, depth_m, still_age, track);
   track.shape = track.visible;
 }
 

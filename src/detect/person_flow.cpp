@@ -37,7 +37,12 @@ Eigen::Vector3f median(const std::vector<Eigen::Vector3f>& vectors) {
 class Flow {
  public:
   Flow(const GridCamera& camera, const FlowKeypoints& current) : camera_(camera), current_(current) {
-    for (const DepthKeypoint& k : current.keypoints) points_.push_back(lift(k));
+    for (std::size_t i = 0; i < current.keypoints.size(); ++i) {
+      if (current.keypoints[i].depth_m > 0.0F) by_row_.push_back(i);
+    }
+    std::sort(by_row_.begin(), by_row_.end(), [&current](std::size_t a, std::size_t b) {
+      return current.keypoints[a].y < current.keypoints[b].y;
+    });
   }
 
   [[nodiscard]] Eigen::Vector3f lift(const DepthKeypoint& k) const {
@@ -58,10 +63,12 @@ class Flow {
     int best = -1;
     int best_distance = kMaxDistance + 1;
     int second_distance = 256;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
+    const auto above = [&](std::size_t i) { return current_.keypoints[i].y - y < -kWindowPx; };
+    for (auto at = std::partition_point(by_row_.begin(), by_row_.end(), above); at != by_row_.end(); ++at) {
+      const std::size_t i = *at;
       const DepthKeypoint& k = current_.keypoints[i];
-      if (std::abs(k.x - x) > kWindowPx || std::abs(k.y - y) > kWindowPx || k.depth_m <= 0.0F) continue;
-      if (std::abs(k.depth_m - expected.z()) > kDepthWindowM) continue;
+      if (k.y - y > kWindowPx) break;
+      if (std::abs(k.x - x) > kWindowPx || std::abs(k.depth_m - expected.z()) > kDepthWindowM) continue;
       const int distance = descriptor_distance(descriptor, current_.descriptors[i]);
       if (distance < best_distance) {
         second_distance = best_distance;
@@ -74,12 +81,14 @@ class Flow {
     return static_cast<float>(best_distance) < kRatio * static_cast<float>(second_distance) ? best : -1;
   }
 
-  [[nodiscard]] const Eigen::Vector3f& point(int i) const { return points_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] Eigen::Vector3f point(int i) const {
+    return lift(current_.keypoints[static_cast<std::size_t>(i)]);
+  }
 
  private:
   const GridCamera& camera_;
   const FlowKeypoints& current_;
-  std::vector<Eigen::Vector3f> points_;
+  std::vector<std::size_t> by_row_;  // keypoints with depth, from the top down
 };
 
 /// Displacements of a person's keypoints, and the sum of their depths.

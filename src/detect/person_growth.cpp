@@ -44,7 +44,7 @@ GrownSurface PersonGrowth::grow(const SdfModel& model, const cv::Rect& box_cells
   std::vector<float> weights;
   for (int y = box_cells.y; y < box_cells.br().y; ++y) {
     for (int x = box_cells.x; x < box_cells.br().x; ++x) {
-      if (piece_(y, x) != 0 || !is_free(x, y) || !model_.contains(depth_m_(y, x))) continue;
+      if (piece_(y, x) != 0 || !model_.contains(depth_m_(y, x)) || !is_free(x, y)) continue;
       pieces.push_back(flood(y * depth_m_.cols + x, static_cast<int>(pieces.size()) + 1));
       weights.push_back(weigh(pieces.back(), prior));
     }
@@ -66,7 +66,7 @@ GrownSurface PersonGrowth::grow(const SdfModel& model, const cv::Rect& box_cells
     surface.cells.insert(surface.cells.end(), pieces[i].begin(), pieces[i].end());
   }
   add_moving(box_cells, static_cast<int>(pieces.size()) + 1, surface);
-  std::sort(surface.cells.begin(), surface.cells.end());
+  put_in_order(surface.cells);
   surface.leak = static_cast<float>(leaks) / static_cast<float>(box_cells.width + box_cells.height);
   return surface;
 }
@@ -76,9 +76,20 @@ void PersonGrowth::add_moving(const cv::Rect& box_cells, int piece_number, Grown
   for (int y = box_cells.y; y < box_cells.br().y; ++y) {
     for (int x = box_cells.x; x < box_cells.br().x; ++x) {
       const bool arrived = scene_.still.age(y, x) < StillSurface::kUnknownAge;
-      if (!arrived || piece_(y, x) != 0 || !is_free(x, y) || !in_band(depth_m_(y, x))) continue;
+      if (!arrived || piece_(y, x) != 0 || !in_band(depth_m_(y, x)) || !is_free(x, y)) continue;
       const std::vector<int> piece = flood(y * depth_m_.cols + x, piece_number++);
       if (moves(piece)) surface.cells.insert(surface.cells.end(), piece.begin(), piece.end());
+    }
+  }
+}
+
+void PersonGrowth::put_in_order(std::vector<int>& cells) {
+  constexpr int kChosen = -1;
+  for (const int cell : cells) piece_(cell) = kChosen;
+  cells.clear();
+  for (int y = limits_.y; y < limits_.br().y; ++y) {
+    for (int x = limits_.x; x < limits_.br().x; ++x) {
+      if (piece_(y, x) == kChosen) cells.push_back(y * depth_m_.cols + x);
     }
   }
 }
@@ -155,13 +166,13 @@ void PersonGrowth::visit_neighbour(int from, int dx, int dy, int number, std::ve
     next += cv::Point(dx, dy);
     ++gap;
   }
-  if (!limits_.contains(next) || piece_(next) != 0 || !is_free(next.x, next.y)) return;
+  if (!limits_.contains(next) || piece_(next) != 0) return;
   const float here_m = depth_m_(from);
   const float depth_m = depth_m_(next);
   if (!in_band(depth_m)) return;
   const bool both_inliers = model_.contains(here_m) && model_.contains(depth_m);
   const float step_m = connected_step_m(depth_m) + (both_inliers ? kInlierStepM : 0.0F);
-  if (std::abs(depth_m - here_m) > step_m) return;
+  if (std::abs(depth_m - here_m) > step_m || !is_free(next.x, next.y)) return;
   piece_(next) = number;
   cells.push_back(next.y * depth_m_.cols + next.x);
 }

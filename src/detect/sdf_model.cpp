@@ -20,6 +20,7 @@ constexpr float kPersonShare = 0.6F;   // of the mixture
 constexpr float kInFrontShare = 0.1F;  // of what is not the person: most of it is behind
 constexpr float kMinRangeM = 0.5F;     // of the depths in the box, for the uniform density
 constexpr float kInvSqrtTwoPi = 0.39894228F;
+constexpr float kLostExponent = 18.0F;  // exp(-18) is less than half of a float's last bit
 
 /// The samples of one box with what does not change from hypothesis to hypothesis.
 class Box {
@@ -68,11 +69,21 @@ class Box {
     const float peak = kPersonShare * kInvSqrtTwoPi / model.sigma_m;
     const float exponent = -0.5F / (model.sigma_m * model.sigma_m);
     const float uniform = (1.0F - kPersonShare) / range_m_;
+    const float in_front = uniform * kInFrontShare;
+    const float behind = uniform * (1.0F - kInFrontShare);
+    const float log_in_front = std::log(in_front);
+    const float log_behind = std::log(behind);
+    // Further off the peak is lost in the rounding of what is added to it.
+    const float lost = std::log(in_front / peak) - kLostExponent;
     float cost = 0.0F;
     for (const DepthSample& s : samples_) {
       const float d = s.depth_m - model.mean_m;
-      const float elsewhere = uniform * (d < 0.0F ? kInFrontShare : 1.0F - kInFrontShare);
-      cost -= s.weight * std::log(peak * std::exp(exponent * d * d) + elsewhere);
+      const float power = exponent * d * d;
+      if (power < lost) {
+        cost -= s.weight * (d < 0.0F ? log_in_front : log_behind);
+      } else {
+        cost -= s.weight * std::log(peak * std::exp(power) + (d < 0.0F ? in_front : behind));
+      }
     }
     return cost;
   }

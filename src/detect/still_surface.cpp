@@ -50,37 +50,47 @@ void StillSurface::claim(const cv::Mat1b& people) {
   free_age.setTo(0, people);
 }
 
+StillSurface StillSurface::move(const GridCamera& camera, const SE3& next_from_this) const {
+  const FloatTransform next_from(next_from_this);
+  const cv::Size size = depth_m.size();
+  StillSurface moved{cv::Mat1f(size, 0.0F), cv::Mat1b(size, kUnknownAge), cv::Mat1b(size, kUnknownAge)};
+  const float* from_m = depth_m[0];
+  float* to_m = moved.depth_m[0];
+  for (int cell = 0; cell < camera.n_cells(); ++cell) {
+    if (from_m[cell] <= 0.0F) continue;
+    const Eigen::Vector3f point = next_from * camera.point(cell, from_m[cell]);
+    const int there = camera.cell_of(point);
+    if (there < 0 || (to_m[there] > 0.0F && to_m[there] <= point.z())) continue;
+    to_m[there] = point.z();
+    moved.age[0][there] = age[0][cell];
+    moved.free_age[0][there] = free_age[0][cell];
+  }
+  return moved;
+}
+
 StillSurface StillSurface::carry(const GridCamera& camera, const cv::Mat1f& next_depth_m,
                                  const SE3& next_from_this) const {
-  const FloatTransform move(next_from_this);
-  const cv::Size size = depth_m.size();
-  StillSurface next{cv::Mat1f(size, 0.0F), cv::Mat1b(size, kUnknownAge), cv::Mat1b(size, kUnknownAge)};
+  const StillSurface expected = move(camera, next_from_this);
+  StillSurface next{expected.depth_m.clone(), expected.age.clone(), expected.free_age.clone()};
+  const float* expected_m = expected.depth_m[0];
+  float* known_m = next.depth_m[0];
+  std::uint8_t* next_age = next.age[0];
+  std::uint8_t* next_free_age = next.free_age[0];
   for (int cell = 0; cell < camera.n_cells(); ++cell) {
-    if (depth_m(cell) <= 0.0F) continue;
-    const Eigen::Vector3f moved = move * camera.point(cell, depth_m(cell));
-    const int there = camera.cell_of(moved);
-    if (there < 0 || (next.depth_m(there) > 0.0F && next.depth_m(there) <= moved.z())) continue;
-    next.depth_m(there) = moved.z();
-    next.age(there) = age(cell);
-    next.free_age(there) = free_age(cell);
-  }
-  const StillSurface expected{next.depth_m.clone(), next.age, next.free_age.clone()};
-  for (int cell = 0; cell < camera.n_cells(); ++cell) {
-    const float read_m = next_depth_m(cell);
+    const float read_m = next_depth_m[0][cell];
     if (read_m <= 0.0F) continue;  // what was expected there may still be there
-    float& known_m = next.depth_m(cell);
-    const float nearer_m = known_m - read_m;
-    if (known_m > 0.0F && std::abs(nearer_m) < still_tolerance_m(known_m)) {
-      known_m -= kGain * nearer_m;
-      next.age(cell) = one_older(next.age(cell));
-      next.free_age(cell) = one_older(next.free_age(cell));
+    const float nearer_m = expected_m[cell] - read_m;
+    if (expected_m[cell] > 0.0F && std::abs(nearer_m) < still_tolerance_m(expected_m[cell])) {
+      known_m[cell] -= kGain * nearer_m;
+      next_age[cell] = one_older(next_age[cell]);
+      next_free_age[cell] = one_older(next_free_age[cell]);
       continue;
     }
     const std::uint8_t beside = age_beside(expected, {cell % depth_m.cols, cell / depth_m.cols}, read_m);
-    const bool arrived = known_m > 0.0F && nearer_m > kArrivalM;
-    next.age(cell) = beside > 0 ? beside : (arrived ? std::uint8_t{0} : kUnknownAge);
-    next.free_age(cell) = next.age(cell);
-    known_m = read_m;
+    const bool arrived = expected_m[cell] > 0.0F && nearer_m > kArrivalM;
+    next_age[cell] = beside > 0 ? beside : (arrived ? std::uint8_t{0} : kUnknownAge);
+    next_free_age[cell] = next_age[cell];
+    known_m[cell] = read_m;
   }
   return next;
 }

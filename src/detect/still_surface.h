@@ -29,6 +29,10 @@ struct StillSurface {
   static constexpr std::uint8_t kUnknownAge = 8;  ///< what is younger has arrived
   static constexpr std::uint8_t kStillAge = 12;   ///< from this age on it counts as still
   static constexpr std::uint8_t kRecentAge = 20;  ///< up to this age it may belong to what has just arrived
+
+ private:
+  /// As it would look in the next frame if nothing but the camera moved.
+  [[nodiscard]] StillSurface move(const GridCamera& camera, const SE3& next_from_this) const;
 };
 
 /// How far a reading of a still surface may be from what another frame predicts (m).

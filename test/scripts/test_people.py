@@ -2,7 +2,7 @@
 
 import pytest
 from conftest import cells
-from cpslam_tools.benchmark import crowd, pair_table, walking
+from cpslam_tools.benchmark import cost, crowd, pair_table, walking
 from fakes import sequence_folder
 
 
@@ -201,3 +201,47 @@ def test_pairs_of_two_presets_are_not_mixed():
     assert cells(text, "a")[6:8] == ["1.000", "1.000"] and cells(text, "b")[6:8] == ["1.210", "1.210"]
     # Within each preset nothing varies, so nor does the bound: sqrt(1.21).
     assert "ratios 1.100 over 4 pairs, 95 % upper bound 1.100" in text
+
+
+def test_cost_runs_take_turns(benchmark):
+    result, document = benchmark("--trials", "people_cost", "--frames", "40", "--repeats", "3")
+    assert result.returncode == 0, result.stderr
+    runs = document["people_cost"]
+    assert [run["variant"] for run in runs] == 3 * [pair_table.WITHOUT, pair_table.WITH]
+    assert {run["mode"] for run in runs} == {"sequential"} and runs[0]["sequence"].endswith("people 6")
+    assert runs[0]["arguments"] == "--detector none" and runs[1]["boxes_read"] == 6 * 40
+    assert cells(result.stdout, "with boxes, 3")[2:6] == ["21.00 (21.00-21.00)", "18.72 (18.72-18.72)", "0.72 (0.72-0.72)",
+                                                          "0.0385 (0.0385-0.0385)"]
+    assert cells(result.stdout, "without, 3")[3:5] == ["18.00 (18.00-18.00)", "0.00 (0.00-0.00)"]
+    assert cells(result.stdout, "people: judge keypoints")[1] == "0.220 (0.220-0.220)"
+    assert "median 1.040 of 3 pairs" in result.stdout and "takes 3.8 % of the tracking time" in result.stdout
+    assert "no masks in it): reached" in result.stdout
+
+
+def test_cost_runs_are_seven_unless_told(benchmark):
+    _, document = benchmark("--trials", "people_cost", "--frames", "40")
+    assert len(document["people_cost"]) == 14
+
+
+def cost_run(variant, number, people_ms, **more):
+    stages = [{"stage": "track", "count": 10, "p50_ms": 40.0}, {"stage": "track: features", "count": 10, "p50_ms": 9.5}]
+    if people_ms:
+        stages.append({"stage": "people: carry", "count": 10, "p50_ms": people_ms})
+    return {"variant": variant, "perturbation": number, "frames": 10, "tracked": 10, "error": None,
+            "tracking_ms": {"p50": 40.0}, "stages": stages, **more}
+
+
+def cost_pairs(*people_ms):
+    return [cost_run(variant, number, ms if variant == pair_table.WITH else 0.0) for number, ms in enumerate(people_ms)
+            for variant in (pair_table.WITHOUT, pair_table.WITH)]
+
+
+def test_the_aim_of_the_cost():
+    # One slow moment of the machine does not decide.
+    assert cost.table(cost_pairs(0.49, 0.45, 5.0)).endswith(": reached.")
+    assert cost.table(cost_pairs(0.51, 0.51, 0.2)).endswith("NOT reached.")
+    failed = cost_pairs(0.2, 0.2)
+    failed[0]["error"] = "status 1"
+    assert "of 1 pairs" in cost.table(failed) and cost.table(failed).endswith("NOT reached.")
+    assert cost.table(cost_pairs(0.0, 0.0)).endswith("no stage of the people filter was timed.")
+    assert cost.table([cost_run("-", "-", 0.0, error="not there")]).endswith("No pair of runs to compare.")

@@ -62,6 +62,46 @@ TEST_F(KeypointFilterTest, KeepsTheBackgroundWithinHisOutline) {
   EXPECT_FALSE(on_person(158.0F, 160.0F, 4.0F));
 }
 
+TEST_F(KeypointFilterTest, RemovesTheOutlineOfWhoWalksAtAnyDepth) {
+  tracks[0].velocity_m_per_s = {1.0F, 0.0F, 0.0F};
+  tracks[0].velocity_variance.setConstant(1e-4F);
+  EXPECT_TRUE(on_person(160.0F, 160.0F, 4.0F));
+  EXPECT_FALSE(on_person(175.0F, 160.0F, 4.0F));
+}
+
+TEST_F(KeypointFilterTest, WhoWalksHasGoneOnSinceTheDepthImage) {
+  tracks[0].velocity_m_per_s = {1.0F, 0.0F, 0.0F};
+  tracks[0].velocity_variance.setConstant(1e-4F);
+  const DepthKeypoint ahead{172.0F, 160.0F, 2.0F};
+  EXPECT_EQ(find_keypoints_on_people(camera, depth_m, tracks, 0.0, {&ahead, 1}).at(0), 0);
+  EXPECT_EQ(find_keypoints_on_people(camera, depth_m, tracks, 0.1, {&ahead, 1}).at(0), 1);
+}
+
+/// Whether keypoints on the person and beside him come back when his surface has the given age.
+class RestingTest : public KeypointFilterTest {
+ protected:
+  [[nodiscard]] bool comes_back(float x, float depth, std::uint8_t age) const {
+    const DepthKeypoint keypoint{x, 160.0F, depth};
+    const cv::Mat1b ages(depth_m.size(), age);
+    return find_keypoints_on_resting_people(camera, ages, tracks, {&keypoint, 1}).at(0) != 0;
+  }
+};
+
+TEST_F(RestingTest, WhoHasNotMovedForLongGivesHisKeypointsBack) {
+  tracks[0].velocity_variance.setConstant(1e-4F);
+  EXPECT_TRUE(comes_back(120.0F, 2.0F, 200));
+  EXPECT_FALSE(comes_back(120.0F, 2.0F, 10)) << "he has just come";
+  EXPECT_FALSE(comes_back(120.0F, 0.0F, 200)) << "without depth nobody knows";
+  EXPECT_FALSE(comes_back(400.0F, 2.0F, 200)) << "that is not on him";
+}
+
+TEST_F(RestingTest, WhoMovesOrMayMoveGivesNothingBack) {
+  EXPECT_FALSE(comes_back(120.0F, 2.0F, 200)) << "his velocity is not known";
+  tracks[0].velocity_variance.setConstant(1e-4F);
+  tracks[0].velocity_m_per_s = {0.5F, 0.0F, 0.0F};
+  EXPECT_FALSE(comes_back(120.0F, 2.0F, 200));
+}
+
 TEST_F(KeypointFilterTest, RemovesHisRim) {
   // Right of his last cell, at his depth, up to the width of a cell.
   EXPECT_TRUE(on_person(161.0F, 160.0F, 2.0F));

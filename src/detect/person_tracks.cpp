@@ -8,6 +8,18 @@
 #include "detect/person_confirm.h"
 
 namespace cpslam {
+namespace {
+
+constexpr double kMostImageMotionPx = 5.0;
+
+/// How far the image of something 2 m away moves, at most.
+double image_motion_px(const GridCamera& camera, const SE3& motion) {
+  constexpr double kTypicalDepthM = 2.0;
+  return camera.camera().fx() *
+         (rotation_angle(motion.rotation) + motion.translation.norm() / kTypicalDepthM);
+}
+
+}  // namespace
 
 PersonTracks::PersonTracks(const PinholeCamera& camera, std::uint64_t seed)
     : camera_(camera), random_(seed) {}
@@ -69,8 +81,9 @@ void PersonTracks::settle(std::size_t index) {
   FrameState& state = frames_[index];
   if (index > 0) drop_what_stays(state.still, state.time_s - frames_[index - 1].time_s, state.tracks);
   const cv::Size size = state.depth_m.size();
-  // With a wrong motion everything seems to move.
-  if (state.pose_known) {
+  // With a wrong motion everything seems to move, and with a quick one what the motion's error, the shutter
+  // and the depth image's own instant leave over.
+  if (state.pose_known && image_motion_px(camera_, state.this_from_previous) < kMostImageMotionPx) {
     const cv::Mat1b people = paint_people(state.tracks, size);
     add_blobs(state.depth_m, find_moving_blobs(state.depth_m, state.still.age, people), state.time_s,
               state.tracks);

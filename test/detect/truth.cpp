@@ -93,6 +93,20 @@ void compare_masks(const cv::Mat& found, const cv::Mat& people, FilterTruth& tru
 
 }  // namespace
 
+FilterTruth& FilterTruth::operator+=(const FilterTruth& other) {
+  on_people += other.on_people;
+  on_people_removed += other.on_people_removed;
+  in_boxes += other.in_boxes;
+  in_boxes_kept += other.in_boxes_kept;
+  rim += other.rim;
+  rim_removed += other.rim_removed;
+  elsewhere += other.elsewhere;
+  elsewhere_kept += other.elsewhere_kept;
+  mask_iou_sum += other.mask_iou_sum;
+  mask_frames += other.mask_frames;
+  return *this;
+}
+
 FilterTruth measure_filter(const TruthOptions& options) {
   sim::SimulationOptions simulated;
   simulated.preset = options.preset;

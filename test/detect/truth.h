@@ -17,6 +17,7 @@ struct FilterTruth {
   double mask_iou_sum = 0.0;                         ///< over frames that show people
   std::size_t mask_frames = 0;
 
+  FilterTruth& operator+=(const FilterTruth& other);
   [[nodiscard]] double removed_share() const { return share(on_people_removed, on_people); }
   [[nodiscard]] double kept_share() const { return share(in_boxes_kept, in_boxes); }
   [[nodiscard]] double rim_removed_share() const { return share(rim_removed, rim); }

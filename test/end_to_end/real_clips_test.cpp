@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <memory>
 
+#include "cpslam/person_detector.h"
 #include "cpslam/system.h"
 #include "io/image_reader.h"
 #include "io/trajectory_error.h"
@@ -15,10 +17,12 @@ namespace {
 
 /// Runs a clip in sequential mode.
 struct RealRun {
-  RealRun(const std::string& clip, const std::string& settings_file) {
+  RealRun(const std::string& clip, const std::string& settings_file,
+          std::unique_ptr<PersonDetector> detector = nullptr, const DetectorSettings& detection = {}) {
     Settings settings = load_settings(CPSLAM_SOURCE_DIR "/Examples/RGB-D/" + settings_file);
     settings.sequential = true;
-    System system(settings);
+    settings.detector = detection;
+    System system(settings, std::move(detector));
     ReadAhead reader(associate_sequence(clip), 8);
     for (RgbdImages images; reader.next(images);) {
       if (!images.error.empty()) throw std::runtime_error(images.error);
@@ -47,17 +51,52 @@ TEST(RealClipsEndToEnd, Desk) {
   EXPECT_LE(run.error.rmse_m, 0.0165);
 }
 
+/// Sees nobody, ever.
+class Blind : public PersonDetector {
+ public:
+  std::vector<PersonBox> detect(const cv::Mat& /*colour*/, double /*time_s*/) override { return {}; }
+  [[nodiscard]] std::string name() const override { return "sees nobody"; }
+};
+
+TEST(RealClipsEndToEnd, ADetectorThatSeesNobodyCostsNothing) {
+  const std::string clip = shared_data_dir().string() + "/fr1_desk_dev";
+  if (!std::filesystem::is_directory(clip)) GTEST_SKIP() << "no clip " << clip << "; set CPSLAM_SHARED_DATA";
+  const RealRun run(clip, "TUM1.yaml", std::make_unique<Blind>());
+  EXPECT_EQ(run.statistics.tracked, 250U);
+  EXPECT_LE(run.error.rmse_m, 0.0165);
+  EXPECT_LE(run.statistics.people.removed_keypoints, run.statistics.people.keypoints / 100);
+}
+
+/// The recorded crowd with its boxes.
+RealRun run_crowd(const std::string& clip, DetectorSettings detection) {
+  detection.kind = DetectorKind::kBoxes;
+  detection.boxes_file = clip + "/person_boxes.txt";
+  return RealRun(clip, "Bonn.yaml", make_detector(detection), detection);
+}
+
 TEST(RealClipsEndToEnd, Crowd) {
   const std::string clip = shared_data_dir().string() + "/bonn_crowd_dev";
   if (!std::filesystem::is_directory(clip)) GTEST_SKIP() << "no clip " << clip << "; set CPSLAM_SHARED_DATA";
-  const RealRun run(clip, "Bonn.yaml");
-  // People are not filtered out, so nothing is asked of the accuracy, and tracking only until they come.
-  constexpr std::size_t kFirstPerson = 39;
-  const Statistics& s = run.statistics;
-  EXPECT_EQ(s.frames, 380U);
-  EXPECT_EQ(s.tracked + s.predicted + s.lost + s.not_initialized, 380U);
-  EXPECT_EQ(run.trajectory.size(), s.tracked);
-  EXPECT_GE(s.tracked, kFirstPerson);
+  const RealRun run = run_crowd(clip, {});
+  EXPECT_EQ(run.statistics.tracked, 380U);
+  // The aim is 0.015 m, and single runs reach 0.018; without the filter it is 0.48, a camera that never moves
+  // 0.086.
+  EXPECT_LE(run.error.rmse_m, 0.020);
+  EXPECT_EQ(run.statistics.people.detections, 380U);
+  EXPECT_GT(run.statistics.people.removed_keypoints, run.statistics.people.keypoints / 10);
+}
+
+TEST(RealClipsEndToEnd, CrowdWithSeldomLateBoxes) {
+  const std::string clip = shared_data_dir().string() + "/bonn_crowd_dev";
+  if (!std::filesystem::is_directory(clip)) GTEST_SKIP() << "no clip " << clip << "; set CPSLAM_SHARED_DATA";
+  DetectorSettings detection;
+  detection.policy = BoxesPolicy::kLatest;
+  detection.pretend_rate_hz = 6.0;
+  detection.pretend_delay_s = 0.15;
+  const RealRun run = run_crowd(clip, detection);
+  EXPECT_EQ(run.statistics.tracked, 380U);
+  EXPECT_LE(run.error.rmse_m, 0.030);
+  EXPECT_GT(run.statistics.people.mean_boxes_age_s, 0.15);
 }
 
 }  // namespace

@@ -12,8 +12,8 @@ constexpr int kRingCells = 8;
 constexpr int kMaxCells = 250;
 constexpr std::size_t kMaxPlanes = 4;
 constexpr int kHypotheses = 16;
-constexpr int kDrawReach =
-    6;  // cells between the draws of a hypothesis: a small plane is rarely hit thrice otherwise
+// Cells between the draws of a hypothesis: a small plane is rarely hit thrice otherwise.
+constexpr int kDrawReach = 6;
 constexpr std::size_t kMinInliers = 15;
 constexpr double kMinShare = 0.06;  // of the ring
 

@@ -16,12 +16,6 @@ constexpr int kNoDepthReachCells = 3;  // how far to look for a depth that tells
 constexpr int kRestFrames = 90;        // for which the surface must have stayed
 constexpr int kPublishedHypotheses = 20;
 
-bool contains(const PersonBox& box, const DepthKeypoint& k) {
-  const auto x = static_cast<double>(k.x);
-  const auto y = static_cast<double>(k.y);
-  return x >= box.x && y >= box.y && x < box.x + box.width && y < box.y + box.height;
-}
-
 float same_surface_m(float depth_m) {
   return 0.12F + 0.03F * depth_m;
 }
@@ -37,8 +31,7 @@ class Judge {
  public:
   Judge(const GridCamera& camera, const cv::Mat1f& depth_m, const std::vector<PersonTrack>& tracks,
         double depth_lag_s)
-      : camera_(camera),
-        depth_m_(depth_m),
+      : depth_m_(depth_m),
         tracks_(tracks),
         people_(depth_m.size(), std::uint8_t{0}),
         people_m_(depth_m.size(), 0.0F) {
@@ -97,7 +90,6 @@ class Judge {
                        [&k](const PersonTrack& t) { return contains(t.box, k); });
   }
 
-  const GridCamera& camera_;
   const cv::Mat1f& depth_m_;
   const std::vector<PersonTrack>& tracks_;
   cv::Mat1b people_;  // kNobody, kStanding or kWalking

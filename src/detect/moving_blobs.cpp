@@ -3,14 +3,13 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "detect/person_growth.h"
+#include "detect/grid_cells.h"
 
 namespace cpslam {
 namespace {
 
 constexpr std::size_t kMinCells = 40;  // 640 px
 constexpr int kReachCells = 8;         // of a part from what has arrived
-constexpr float kFoldM = 0.05F;
 
 /// The blob around a seed: arrived cells that hang together, and what hangs on them. Marks them as taken.
 GridSurface flood(const cv::Mat1f& depth_m, int seed, cv::Mat1b& recent) {
@@ -21,8 +20,7 @@ GridSurface flood(const cv::Mat1f& depth_m, int seed, cv::Mat1b& recent) {
   for (std::size_t i = 0; i < blob.size(); ++i) {
     if (reach[i] == 0) continue;
     const cv::Point at(blob.cells[i] % depth_m.cols, blob.cells[i] / depth_m.cols);
-    for (const cv::Point& next :
-         {at + cv::Point(1, 0), at - cv::Point(1, 0), at + cv::Point(0, 1), at - cv::Point(0, 1)}) {
+    for (const cv::Point& next : neighbours(at)) {
       if (!cv::Rect({}, depth_m.size()).contains(next) || recent(next) == 0) continue;
       const float fold_m = recent(next) == 2 ? kFoldM : 0.0F;
       if (std::abs(depth_m(next) - depth_m(at)) > connected_step_m(depth_m(at)) + fold_m) continue;

@@ -9,7 +9,6 @@
 #include "detect/depth_grid.h"
 #include "detect/keypoint_filter.h"
 #include "detect/person_mask.h"
-#include "features/image_mask.h"
 
 namespace cpslam {
 namespace {

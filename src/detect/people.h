@@ -48,7 +48,6 @@ class People {
 
   /// No more frames: see DetectorThread::finish().
   void finish();
-  [[nodiscard]] bool detector_is_stuck() const { return detector_ && detector_->is_stuck(); }
 
   /// Boxes and mask of the last frame.
   void show(FrameView& view) const;

@@ -1,19 +1,18 @@
 #include "detect/person_carry.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
-#include "detect/person_growth.h"
+#include "detect/grid_cells.h"
 #include "detect/still_surface.h"
+#include "util/median.h"
 
 namespace cpslam {
 namespace {
 
-constexpr float kFoldM = 0.05F;  // of clothes and between limbs
-constexpr float kBodyM =
-    0.35F;  // before and behind his middle, where nothing has arrived: no walking over the floor
+// Before and behind his middle, where nothing has arrived: no walking over the floor.
+constexpr float kBodyM = 0.35F;
 constexpr int kGrowthCells = 3;        // an outline moves no further between two frames, once carried
 constexpr float kFoundShare = 0.3F;    // of the predicted surface: less, and something hides the person
 constexpr float kDepthShiftM = 0.02F;  // uncertainty of the median between found and predicted depths
@@ -117,10 +116,7 @@ class Finder {
   }
   void grow_from(int cell, std::uint8_t index) {
     const int columns = step_.depth_m.cols;
-    const int x = cell % columns;
-    const int y = cell / columns;
-    for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-      const cv::Point next(x + dx, y + dy);
+    for (const cv::Point& next : neighbours({cell % columns, cell / columns})) {
       if (!cv::Rect({}, step_.depth_m.size()).contains(next) || taken_(next) != 0) continue;
       const int there = next.y * columns + next.x;
       const float depth_m = step_.depth_m(next);
@@ -184,11 +180,10 @@ void settle(const FrameStep& step, const GridSurface& moved, GridSurface found, 
       const int cell = track.visible.cells[i];
       off.push_back(step.depth_m(cell) - prediction.person_m(cell));
     }
-    const auto middle = off.begin() + static_cast<std::ptrdiff_t>(off.size() / 2);
-    std::nth_element(off.begin(), middle, off.end());
+    const float shift_m = median(off);
     const float sigma = kDepthShiftM / static_cast<float>(step.dt_s);
     Eigen::Vector3f measured = track.velocity_m_per_s;
-    measured.z() += *middle / static_cast<float>(step.dt_s);
+    measured.z() += shift_m / static_cast<float>(step.dt_s);
     constexpr float kUnmeasured = 1e3F;
     measure_velocity(measured, {kUnmeasured, kUnmeasured, sigma}, track);
   }

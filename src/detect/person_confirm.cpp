@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "detect/person_growth.h"
+#include "detect/grid_cells.h"
 #include "detect/still_surface.h"
 
 namespace cpslam {
@@ -90,9 +90,7 @@ std::uint8_t free_number(const std::vector<PersonTrack>& tracks) {
 }
 
 float still_share(const std::vector<int>& cells, const cv::Mat1b& still_age) {
-  const auto still = std::count_if(cells.begin(), cells.end(),
-                                   [&](int cell) { return still_age(cell) >= StillSurface::kStillAge; });
-  return static_cast<float>(still) / static_cast<float>(std::max<std::size_t>(1, cells.size()));
+  return share_of(cells, [&](int cell) { return still_age(cell) >= StillSurface::kStillAge; });
 }
 
 /// Whether the fit found somebody or something else than who was carried here, who suits the box better.
@@ -157,8 +155,7 @@ PersonTrack* find_owner(const cv::Mat1f& depth_m, const GridSurface& blob, std::
   std::array<int, 256> contacts{};
   for (std::size_t i = 0; i < blob.size(); ++i) {
     const cv::Point at(blob.cells[i] % depth_m.cols, blob.cells[i] / depth_m.cols);
-    for (const cv::Point& next :
-         {at + cv::Point(1, 0), at - cv::Point(1, 0), at + cv::Point(0, 1), at - cv::Point(0, 1)}) {
+    for (const cv::Point& next : neighbours(at)) {
       if (!cv::Rect({}, depth_m.size()).contains(next)) continue;
       if (std::abs(depth_m(next) - blob.depth_m[i]) < connected_step_m(blob.depth_m[i]))
         ++contacts[labels(next)];

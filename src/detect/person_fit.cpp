@@ -6,6 +6,7 @@
 
 #include "detect/background_planes.h"
 #include "detect/depth_grid.h"
+#include "detect/grid_cells.h"
 #include "detect/person_growth.h"
 #include "detect/place_prior.h"
 #include "detect/still_surface.h"
@@ -24,16 +25,6 @@ constexpr float kMostlyKnown = 0.5F;
 constexpr float kStillCost = 0.5F;
 constexpr float kLeakCost = 3.0F;      // of an outline that goes on outside the box
 constexpr float kOverlapShare = 0.5F;  // of a fit: then it is the other one's person
-
-float middle_px(int cell) {
-  return (static_cast<float>(cell) + 0.5F) * static_cast<float>(kDepthCellPx) - 0.5F;
-}
-
-bool inside(const PersonBox& box, const DepthKeypoint& k) {
-  const auto x = static_cast<double>(k.x);
-  const auto y = static_cast<double>(k.y);
-  return x >= box.x && y >= box.y && x < box.x + box.width && y < box.y + box.height;
-}
 
 /// One call of fit_people: the grid, and what is taken by the people found so far.
 class Fitter {
@@ -92,9 +83,7 @@ class Fitter {
     for (const int cell : cells) taken_(cell) = 1;
   }
   [[nodiscard]] float taken_share(const std::vector<int>& cells) const {
-    if (cells.empty()) return 0.0F;
-    const auto n = std::count_if(cells.begin(), cells.end(), [this](int cell) { return taken_(cell) != 0; });
-    return static_cast<float>(n) / static_cast<float>(cells.size());
+    return share_of(cells, [this](int cell) { return taken_(cell) != 0; });
   }
 
  private:
@@ -111,7 +100,7 @@ class Fitter {
       }
     }
     for (const DepthKeypoint& k : keypoints_) {
-      if (k.depth_m <= 0.0F || !inside(known_box.box, k)) continue;
+      if (k.depth_m <= 0.0F || !contains(known_box.box, k)) continue;
       const int cell = camera_.cell_of_pixel(k.x, k.y);
       if (cell >= 0 && taken_(cell) == 0)
         samples.push_back({k.depth_m, prior.weight(k.x, k.y) * history_weight(cell, known_box.number)});
@@ -123,11 +112,6 @@ class Fitter {
   [[nodiscard]] float history_weight(int cell, std::uint8_t number) const {
     const float known = number != 0 && scene_.people(cell) == number ? kKnownWeight : 1.0F;
     return known * (scene_.still.free_age(cell) >= StillSurface::kStillAge ? kStillWeight : 1.0F);
-  }
-  template <typename Test>
-  [[nodiscard]] static float share_of(const std::vector<int>& cells, const Test& test) {
-    const auto n = std::count_if(cells.begin(), cells.end(), test);
-    return static_cast<float>(n) / static_cast<float>(std::max<std::size_t>(1, cells.size()));
   }
 
   const GridCamera& camera_;

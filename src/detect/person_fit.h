@@ -19,6 +19,13 @@ struct DepthKeypoint {
   float depth_m = 0.0F;
 };
 
+/// Whether a keypoint lies in a box.
+[[nodiscard]] inline bool contains(const PersonBox& box, const DepthKeypoint& k) {
+  const auto x = static_cast<double>(k.x);
+  const auto y = static_cast<double>(k.y);
+  return x >= box.x && y >= box.y && x < box.x + box.width && y < box.y + box.height;
+}
+
 /// The surface of the person in a box.
 struct PersonFit {
   SdfModel model;          ///< invalid: the box holds no depth

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "camera/depth_noise.h"
+#include "util/median.h"
 
 namespace cpslam {
 namespace {
@@ -18,13 +19,7 @@ constexpr float kAgreeM = 0.06F;     // with the median displacement
 constexpr float kKeypointPx = 1.0F;  // how well a keypoint is localised
 constexpr float kMaxSpeedMPerS = 4.0F;
 
-float median(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-Eigen::Vector3f median(const std::vector<Eigen::Vector3f>& vectors) {
+Eigen::Vector3f median_by_axis(const std::vector<Eigen::Vector3f>& vectors) {
   Eigen::Vector3f result;
   std::vector<float> values(vectors.size());
   for (int axis = 0; axis < 3; ++axis) {
@@ -100,7 +95,7 @@ struct Displacements {
 void correct_velocity(const Displacements& displacements, float focal_px, double dt_s, PersonTrack& track) {
   const auto n = displacements.moved.size();
   if (n < kMinMatches) return;
-  const Eigen::Vector3f middle = median(displacements.moved);
+  const Eigen::Vector3f middle = median_by_axis(displacements.moved);
   const float depth_m = displacements.depth_sum_m / static_cast<float>(n);
   const auto noise_m = static_cast<float>(structured_light_sigma_m(static_cast<double>(depth_m)));
   const auto agreeing =

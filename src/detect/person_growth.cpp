@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "detect/depth_grid.h"
+#include "detect/grid_cells.h"
 #include "detect/still_surface.h"
 
 namespace cpslam {
@@ -20,10 +20,6 @@ constexpr float kMaxPieceLeak = 0.5F;  // cells that go on outside the box, by t
 constexpr float kInlierStepM = 0.1F;   // more between two inliers
 constexpr int kMarginCells = 1;        // that a person may reach over his box
 constexpr int kGapCells = 3;           // without readings
-
-float middle_px(int cell) {
-  return (static_cast<float>(cell) + 0.5F) * static_cast<float>(kDepthCellPx) - 0.5F;
-}
 
 }  // namespace
 
@@ -95,10 +91,7 @@ void PersonGrowth::put_in_order(std::vector<int>& cells) {
 }
 
 float PersonGrowth::arrived_share(const std::vector<int>& cells) const {
-  const auto arrived = std::count_if(cells.begin(), cells.end(), [this](int cell) {
-    return scene_.still.age(cell) < StillSurface::kUnknownAge;
-  });
-  return static_cast<float>(arrived) / static_cast<float>(std::max<std::size_t>(1, cells.size()));
+  return share_of(cells, [this](int cell) { return scene_.still.age(cell) < StillSurface::kUnknownAge; });
 }
 
 bool PersonGrowth::moves(const std::vector<int>& piece) const {
@@ -130,9 +123,9 @@ int PersonGrowth::count_leaks(const std::vector<int>& cells) const {
     };
     const bool on_limit =
         at.x == limits_.x || at.y == limits_.y || at.x + 1 == limits_.br().x || at.y + 1 == limits_.br().y;
-    if (on_limit && (goes_on(at + cv::Point(1, 0)) || goes_on(at - cv::Point(1, 0)) ||
-                     goes_on(at + cv::Point(0, 1)) || goes_on(at - cv::Point(0, 1))))
-      ++leaks;
+    if (!on_limit) continue;
+    const auto beside = neighbours(at);
+    leaks += std::any_of(beside.begin(), beside.end(), goes_on) ? 1 : 0;
   }
   return leaks;
 }

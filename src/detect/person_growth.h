@@ -10,11 +10,6 @@
 
 namespace cpslam {
 
-/// How far two neighbouring cells of one surface may differ in depth (m).
-[[nodiscard]] inline float connected_step_m(float depth_m) {
-  return 0.03F + 0.015F * depth_m;
-}
-
 /// Cells of the depth grid, ascending, and how much of their outline is no outline: connected in depth to
 /// what lies outside the box.
 struct GrownSurface {

@@ -12,14 +12,6 @@ constexpr int kOldest = 250;
 constexpr float kArrivalM = 0.1F;  // before what was known
 constexpr float kGain = 0.3F;      // of a reading on the running mean
 
-}  // namespace
-
-float still_tolerance_m(float depth_m) {
-  return 0.02F + 4.0F * static_cast<float>(structured_light_sigma_m(static_cast<double>(depth_m)));
-}
-
-namespace {
-
 std::uint8_t one_older(std::uint8_t age) {
   return static_cast<std::uint8_t>(std::min(kOldest, age + 1));
 }
@@ -41,6 +33,10 @@ std::uint8_t age_beside(const StillSurface& expected, cv::Point at, float read_m
 }
 
 }  // namespace
+
+float still_tolerance_m(float depth_m) {
+  return 0.02F + 4.0F * static_cast<float>(structured_light_sigma_m(static_cast<double>(depth_m)));
+}
 
 StillSurface StillSurface::begin(const cv::Mat1f& depth_m) {
   return {depth_m, cv::Mat1b(depth_m.size(), kUnknownAge), cv::Mat1b(depth_m.size(), kUnknownAge)};

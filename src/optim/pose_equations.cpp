@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "optim/reprojection.h"
+#include "util/median.h"
 
 namespace cpslam {
 namespace {
@@ -28,9 +29,8 @@ bool sensible(const PoseObservation& observation) {
 /// As long as most observations are right, the median tells how far the residuals of a pose that has not
 /// settled yet are blown up. 3 leaves the gate as it is when the residuals are what the sigmas promise.
 double relaxed_limit(std::vector<double> chi2_per_gate) {
-  const auto middle = chi2_per_gate.begin() + static_cast<std::ptrdiff_t>(chi2_per_gate.size() / 2);
-  std::nth_element(chi2_per_gate.begin(), middle, chi2_per_gate.end());
-  return std::isfinite(*middle) ? 3.0 * *middle : 1.0;
+  const double middle = median(chi2_per_gate);
+  return std::isfinite(middle) ? 3.0 * middle : 1.0;
 }
 
 }  // namespace

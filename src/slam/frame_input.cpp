@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "util/median.h"
+
 namespace cpslam {
 namespace {
 
@@ -36,9 +38,7 @@ double median_depth_m(const cv::Mat& depth, double depth_map_factor) {
   std::vector<float> samples =
       depth.type() == CV_16UC1 ? valid_samples<std::uint16_t>(depth) : valid_samples<float>(depth);
   if (samples.empty()) return 0.0;
-  const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
-  std::nth_element(samples.begin(), middle, samples.end());
-  return static_cast<double>(*middle) / depth_map_factor;
+  return static_cast<double>(median(samples)) / depth_map_factor;
 }
 
 void warn_about_depth_scale(const cv::Mat& depth, double depth_map_factor, const Log& log) {

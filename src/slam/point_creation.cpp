@@ -10,6 +10,7 @@
 
 #include "match/orb_matcher.h"
 #include "slam/observation_model.h"
+#include "util/median.h"
 
 namespace cpslam {
 namespace {
@@ -126,9 +127,7 @@ double median_depth(const Map& map, const KeyFrame& keyframe) {
     }
   }
   if (depths.empty()) return 0.0;
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  return *middle;
+  return median(depths);
 }
 
 /// The neighbours far enough away to give parallax; depth gives what the virtual baseline gives without

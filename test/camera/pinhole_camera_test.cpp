@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "support/tum_cameras.h"
 #include "util/random.h"
 
 namespace cpslam {
@@ -15,20 +16,6 @@ CameraSettings plain() {
   s.fy = 539.2;
   s.cx = 320.1;
   s.cy = 247.6;
-  return s;
-}
-
-CameraSettings tum1() {
-  CameraSettings s;
-  s.fx = 517.306408;
-  s.fy = 516.469215;
-  s.cx = 318.643040;
-  s.cy = 255.313989;
-  s.k1 = 0.262383;
-  s.k2 = -0.953104;
-  s.p1 = -0.005358;
-  s.p2 = 0.002628;
-  s.k3 = 1.163314;
   return s;
 }
 
@@ -62,7 +49,7 @@ TEST(PinholeCamera, ProjectsByHand) {
 }
 
 TEST(PinholeCamera, BackProjectInvertsProject) {
-  const PinholeCamera camera(tum1());
+  const PinholeCamera camera(tum1_camera());
   Random random(1);
   for (int i = 0; i < 1000; ++i) {
     const Eigen::Vector3d point(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(0.2, 9.0));
@@ -148,7 +135,7 @@ TEST_P(RealCalibration, StaysFiniteFarOutside) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Tum, RealCalibration, testing::Values(tum1(), tum2()));
+INSTANTIATE_TEST_SUITE_P(Tum, RealCalibration, testing::Values(tum1_camera(), tum2()));
 
 }  // namespace
 }  // namespace cpslam

@@ -41,6 +41,15 @@ class DetectorThreadTest : public testing::Test {
     thread_ =
         std::make_unique<DetectorThread>(detector_that(std::move(function)), options, timer_, book_.log());
   }
+  /// With a detector that waits at the gate in every detection.
+  void start_gated(const DetectorThreadOptions& options) {
+    start(
+        [this](double time_s) {
+          gate_.pass();
+          return box_of(time_s);
+        },
+        options);
+  }
   void offer(std::uint64_t frame) { thread_->offer(frame, stamp(frame), image_); }
   std::vector<std::uint64_t> collect(std::uint64_t frame) {
     return frames_of(thread_->collect(stamp(frame)));
@@ -97,12 +106,7 @@ TEST_F(Wait, EveryFrameGetsItsOwnBoxes) {
 }
 
 TEST_F(Wait, DetectsWhileTheCallerDoesOtherThings) {
-  start(
-      [&](double time_s) {
-        gate_.pass();
-        return box_of(time_s);
-      },
-      options(BoxesPolicy::kWait));
+  start_gated(options(BoxesPolicy::kWait));
   offer(0);
   gate_.wait_for(1);  // the detection runs while we are here
   gate_.open();
@@ -193,12 +197,7 @@ TEST_F(Wait, LateBoxesComeBeforeTheFramesOwn) {
 }
 
 TEST_F(Latest, ANewerImageReplacesTheOneThatWaits) {
-  start(
-      [&](double time_s) {
-        gate_.pass();
-        return box_of(time_s);
-      },
-      options(BoxesPolicy::kLatest));
+  start_gated(options(BoxesPolicy::kLatest));
   offer(0);
   gate_.wait_for(1);
   EXPECT_THAT(collect(0), IsEmpty());
@@ -294,12 +293,7 @@ TEST_F(Pretended, BeginsAtItsRateAndArrivesAfterItsDelay) {
 TEST_F(Pretended, WhatIsDueIsWaitedForAndNotMissed) {
   DetectorThreadOptions pretended = options(BoxesPolicy::kLatest);
   pretended.pretend_delay_s = 2.0 * kInterval;
-  start(
-      [&](double time_s) {
-        gate_.pass();
-        return box_of(time_s);
-      },
-      pretended);
+  start_gated(pretended);
   EXPECT_THAT(offer_and_collect(0), IsEmpty());
   EXPECT_THAT(offer_and_collect(1), IsEmpty());
   gate_.wait_for(1);
@@ -312,12 +306,7 @@ TEST_F(Pretended, AHangingDetectorIsGivenUpWhenItsBoxesAreDue) {
   DetectorThreadOptions pretended = options(BoxesPolicy::kLatest);
   pretended.pretend_delay_s = 2.0 * kInterval;
   pretended.timeout_s = 0.05;
-  start(
-      [&](double time_s) {
-        gate_.pass();
-        return box_of(time_s);
-      },
-      pretended);
+  start_gated(pretended);
   for (std::uint64_t frame = 0; frame < 30; ++frame) EXPECT_THAT(offer_and_collect(frame), IsEmpty());
   EXPECT_TRUE(thread_->is_stuck());
   EXPECT_EQ(thread_->n_failures(), 1U);
@@ -328,12 +317,7 @@ TEST_F(Pretended, AHangingDetectorIsGivenUpWhenItsBoxesAreDue) {
 }
 
 TEST_F(Ending, DropsTheImageThatWaits) {
-  start(
-      [&](double time_s) {
-        gate_.pass();
-        return box_of(time_s);
-      },
-      options(BoxesPolicy::kLatest));
+  start_gated(options(BoxesPolicy::kLatest));
   offer(0);
   gate_.wait_for(1);
   offer(1);
@@ -344,12 +328,7 @@ TEST_F(Ending, DropsTheImageThatWaits) {
 }
 
 TEST_F(Ending, FinishWaitsForTheDetectionUnderWay) {
-  start(
-      [&](double time_s) {
-        gate_.pass();
-        return box_of(time_s);
-      },
-      options(BoxesPolicy::kLatest));
+  start_gated(options(BoxesPolicy::kLatest));
   offer(0);
   gate_.wait_for(1);
   offer(1);

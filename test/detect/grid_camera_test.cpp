@@ -6,23 +6,10 @@
 
 #include "detect/depth_grid.h"
 #include "detect/depth_scene.h"
+#include "support/tum_cameras.h"
 
 namespace cpslam {
 namespace {
-
-CameraSettings tum1() {
-  CameraSettings s;
-  s.fx = 517.306408;
-  s.fy = 516.469215;
-  s.cx = 318.643040;
-  s.cy = 255.313989;
-  s.k1 = 0.262383;
-  s.k2 = -0.953104;
-  s.p1 = -0.005358;
-  s.p2 = 0.002628;
-  s.k3 = 1.163314;
-  return s;
-}
 
 void expect_round_trip(const GridCamera& camera) {
   for (const float depth_m : {0.2F, 0.7F, 2.0F, 5.5F, 13.0F}) {
@@ -36,7 +23,7 @@ TEST(GridCamera, FindsEveryCellAgain) {
 }
 
 TEST(GridCamera, FindsEveryCellAgainThroughALens) {
-  expect_round_trip(GridCamera(PinholeCamera(tum1())));
+  expect_round_trip(GridCamera(PinholeCamera(tum1_camera())));
 }
 
 TEST(GridCamera, PutsAPointAtItsDepth) {
@@ -61,7 +48,7 @@ TEST(GridCamera, SeesNothingBehindOrBesideTheImage) {
   EXPECT_EQ(camera.cell_of({0.0F, 0.0F, 0.0F}), -1);
   EXPECT_EQ(camera.cell_of({5.0F, 0.0F, 1.0F}), -1);
   EXPECT_EQ(camera.cell_of({0.0F, -5.0F, 1.0F}), -1);
-  const GridCamera lens{PinholeCamera(tum1())};
+  const GridCamera lens{PinholeCamera(tum1_camera())};
   EXPECT_EQ(lens.cell_of({5.0F, 0.0F, 1.0F}), -1);
   EXPECT_EQ(lens.cell_of({0.0F, 0.0F, -1.0F}), -1);
 }

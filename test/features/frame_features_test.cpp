@@ -5,24 +5,11 @@
 #include <cmath>
 
 #include "cpslam/error.h"
+#include "support/tum_cameras.h"
 #include "test_images.h"
 
 namespace cpslam {
 namespace {
-
-CameraSettings desk_camera() {
-  CameraSettings s;
-  s.fx = 517.306408;
-  s.fy = 516.469215;
-  s.cx = 318.643040;
-  s.cy = 255.313989;
-  s.k1 = 0.262383;
-  s.k2 = -0.953104;
-  s.p1 = -0.005358;
-  s.p2 = 0.002628;
-  s.k3 = 1.163314;
-  return s;
-}
 
 /// Depth in 1/5000 m: a wall, nearer to the right, with a hole.
 cv::Mat wall_depth() {
@@ -35,7 +22,7 @@ cv::Mat wall_depth() {
 }
 
 TEST(FrameFeatures, HoldsWhatTheImagesSay) {
-  const CameraSettings settings = desk_camera();
+  const CameraSettings settings = tum1_camera();
   const PinholeCamera camera(settings);
   const cv::Mat grey = test::textured_image(640, 480, 1);
   const cv::Mat depth = wall_depth();
@@ -83,7 +70,7 @@ TEST(FrameFeatures, FloatAndIntegerDepthAgree) {
   const cv::Mat depth = wall_depth();
   cv::Mat as_float;
   depth.convertTo(as_float, CV_32FC1);
-  FrameFeaturesBuilder builder(desk_camera(), {});
+  FrameFeaturesBuilder builder(tum1_camera(), {});
   const auto a = builder.build(grey, depth);
   const auto b = builder.build(grey, as_float);
   EXPECT_EQ(a->depth_m, b->depth_m);
@@ -113,8 +100,8 @@ SE3 small_motion() {
 TEST(FrameFeatures, TwoStepsKeepingAllAreOneStep) {
   const cv::Mat grey = test::textured_image(640, 480, 3);
   const cv::Mat depth = wall_depth();
-  const auto whole = FrameFeaturesBuilder(desk_camera(), {}).build(grey, depth, small_motion());
-  FrameFeaturesBuilder builder(desk_camera(), {});
+  const auto whole = FrameFeaturesBuilder(tum1_camera(), {}).build(grey, depth, small_motion());
+  FrameFeaturesBuilder builder(tum1_camera(), {});
   const KeypointCandidates& candidates = builder.extract(grey, depth, small_motion());
   ASSERT_EQ(candidates.depth.size(), candidates.orb.keypoints.size());
   ASSERT_EQ(candidates.undistorted.size(), candidates.orb.keypoints.size());
@@ -133,7 +120,7 @@ TEST(FrameFeatures, TwoStepsKeepingAllAreOneStep) {
 TEST(FrameFeatures, OnlyTheKeptAreInTheFrame) {
   const cv::Mat grey = test::textured_image(640, 480, 4);
   const cv::Mat depth = wall_depth();
-  FrameFeaturesBuilder builder(desk_camera(), {});
+  FrameFeaturesBuilder builder(tum1_camera(), {});
   const auto whole = builder.build(grey, depth);
   const KeypointCandidates& candidates = builder.extract(grey, depth);
   std::vector<std::uint8_t> keep(static_cast<std::size_t>(candidates.size()));
@@ -154,12 +141,12 @@ TEST(FrameFeatures, OnlyTheKeptAreInTheFrame) {
 }
 
 TEST(FrameFeatures, ExtendedCandidatesCarryDepthAndUndistortedPixels) {
-  const PinholeCamera camera(desk_camera());
+  const PinholeCamera camera(tum1_camera());
   const cv::Mat grey = test::textured_image(640, 480, 5);
   const cv::Mat depth = wall_depth();
   cv::Mat people = cv::Mat::zeros(120, 160, CV_8UC1);
   people.colRange(0, 110).setTo(1);
-  FrameFeaturesBuilder builder(desk_camera(), {});
+  FrameFeaturesBuilder builder(tum1_camera(), {});
   KeypointCandidates& candidates = builder.extract(grey, depth, {}, {.people = people});
   const int n = candidates.size();
   EXPECT_EQ(n, 1150);
@@ -182,7 +169,7 @@ TEST(FrameFeatures, ExtendedCandidatesCarryDepthAndUndistortedPixels) {
 }
 
 TEST(FrameFeatures, AFrameWithoutAnythingIsEmpty) {
-  FrameFeaturesBuilder builder(desk_camera(), {});
+  FrameFeaturesBuilder builder(tum1_camera(), {});
   const auto features = builder.build(cv::Mat::zeros(480, 640, CV_8UC1), cv::Mat::zeros(480, 640, CV_16UC1));
   EXPECT_EQ(features->size(), 0);
   std::vector<int> found;
@@ -191,7 +178,7 @@ TEST(FrameFeatures, AFrameWithoutAnythingIsEmpty) {
 }
 
 TEST(FrameFeatures, RefusesImagesThatDoNotFit) {
-  FrameFeaturesBuilder builder(desk_camera(), {});
+  FrameFeaturesBuilder builder(tum1_camera(), {});
   const cv::Mat grey = cv::Mat::zeros(480, 640, CV_8UC1);
   EXPECT_THROW((void)builder.build(grey, cv::Mat::zeros(240, 320, CV_16UC1)), InputError);
   EXPECT_THROW((void)builder.build(grey, cv::Mat::zeros(480, 640, CV_8UC1)), InputError);

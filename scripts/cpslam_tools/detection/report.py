@@ -101,13 +101,15 @@ def plot_curves(path, results, threshold):
     """Precision over recall, one curve a run, the threshold marked."""
     figure = plots.new_figure(8, 6)
     axes = figure.add_subplot()
-    for number, result in enumerate(results):
+    colours = {}
+    for result in results:
         total = result["all"]
-        style = {"color": f"C{number % 10}", "linestyle": "--" if result["numbers"] == "int8" else "-"}
+        colour = colours.setdefault((result["network"], result["input"]), f"C{len(colours) % 10}")
+        style = {"color": colour, "linestyle": "--" if result["numbers"] == "int8" else "-"}
         axes.plot(total.curve.recall, total.curve.precision, linewidth=1.2,
                   label=f"{' '.join(_name(result))}: AP {share(total.ap)}", **style)
         if total.counts.recall is not None and total.counts.precision is not None:
-            axes.plot(total.counts.recall, total.counts.precision, "o", color=style["color"])
+            axes.plot(total.counts.recall, total.counts.precision, "o", color=colour)
     axes.set_xlabel("recall")
     axes.set_ylabel("precision")
     axes.set_xlim(0, 1)

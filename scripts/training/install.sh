@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# Installs what train_detector.py needs besides scripts/install_dependencies.sh: PyTorch and OpenCV for Python, as
+# Debian has them. Building, testing and running CP-SLAM need neither; the tests of the training are skipped without.
+set -euo pipefail
+# shellcheck source=scripts/lib.sh
+source "$(dirname -- "${BASH_SOURCE[0]}")/../lib.sh"
+
+readonly PACKAGES=(python3-torch python3-opencv python3-numpy python3-matplotlib)
+
+main() {
+  (($# == 0)) || usage_error "unknown option '$1' (none is known)"
+  if /usr/bin/python3 -c 'import torch, cv2, numpy, matplotlib' 2>/dev/null; then
+    say "All of ${PACKAGES[*]} are there"
+    return
+  fi
+  local command=(apt-get)
+  ((EUID == 0)) || command=(sudo apt-get)
+  say "Installing ${PACKAGES[*]}"
+  "${command[@]}" update
+  "${command[@]}" install --yes --no-install-recommends "${PACKAGES[@]}"
+}
+
+main "$@"

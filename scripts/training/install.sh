@@ -9,15 +9,14 @@ readonly PACKAGES=(python3-torch python3-opencv python3-numpy python3-matplotlib
 
 main() {
   (($# == 0)) || usage_error "unknown option '$1' (none is known)"
-  if /usr/bin/python3 -c 'import torch, cv2, numpy, matplotlib' 2>/dev/null; then
+  local missing=()
+  mapfile -t missing < <(missing_packages "${PACKAGES[@]}")
+  if ((${#missing[@]} == 0)); then
     say "All of ${PACKAGES[*]} are there"
     return
   fi
-  local command=(apt-get)
-  ((EUID == 0)) || command=(sudo apt-get)
-  say "Installing ${PACKAGES[*]}"
-  "${command[@]}" update
-  "${command[@]}" install --yes --no-install-recommends "${PACKAGES[@]}"
+  say "Installing ${missing[*]}"
+  apt_install "${missing[@]}"
 }
 
 main "$@"

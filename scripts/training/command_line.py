@@ -59,12 +59,13 @@ def add_train(parser):
     parser.add_argument("--teacher", metavar="ONNX", help="YOLOX network whose scores of all its classes are soft "
                         "labels")
     parser.add_argument("--pictures", type=int, default=300000, help="to be seen in all (default %(default)s)")
-    parser.add_argument("--sizes", default="0:224,0.4:320,0.8:416", help="SHARE:PX,...: from which share of the "
+    parser.add_argument("--sizes", default="0:192,0.45:256,0.7:320,0.9:416", help="SHARE:PX,...: from which share of the "
                         "training on pictures are how large, give or take a stride (default %(default)s)")
     parser.add_argument("--hold", type=float, default=0.0, help="share of the training after which the learning rate "
                         "begins to fall (default %(default)s: a whole cosine)")
-    parser.add_argument("--batch", type=int, default=16)
-    parser.add_argument("--rate", type=float, default=2e-3, help="highest learning rate (default %(default)s)")
+    parser.add_argument("--batch", type=int, default=8, help="pictures per step (default %(default)s: with "
+                        "few pictures in all, many small steps learn more)")
+    parser.add_argument("--rate", type=float, default=1.5e-3, help="highest learning rate (default %(default)s)")
     parser.add_argument("--decay", type=float, default=0.02, help="weight decay (default %(default)s)")
     parser.add_argument("--warm-up", type=int, default=3000, help="pictures (default %(default)s)")
     parser.add_argument("--validate-every", type=int, default=8000, help="pictures (default %(default)s)")

@@ -7,7 +7,7 @@ import numpy as np
 
 from cpslam_tools.errors import InputError
 
-from .geometry import SMALLEST_SIDE, affine, linear_map
+from .geometry import LABELLED_FILL, LABELLED_SHARE, SMALLEST_SIDE, affine, linear_map
 
 HIDDEN = 0.75  # covered to this share, a person is ignored
 GONE = 0.97  # and from here on no longer there
@@ -31,37 +31,46 @@ def load_cutouts(folder, longest=384):
 
 
 def paste(picture, people, ignored, cutout, cut_below, generator):
-    """Puts one cut-out into the picture (changed in place). Returns the boxes of the people and those ignored."""
+    """Puts one cut-out into the square picture (changed in place). Returns the boxes of the people and those ignored."""
     side = picture.shape[0]
+    layer, full_area = placed(cutout, cut_below, side, generator)
+    solid = layer[:, :, 3] > 127
+    columns, rows = np.flatnonzero(solid.any(0)), np.flatnonzero(solid.any(1))
+    if not len(columns):
+        return people, ignored
+    x0, y0, x1, y1 = columns[0], rows[0], columns[-1] + 1, rows[-1] + 1
+    blend(picture[y0:y1, x0:x1], layer[y0:y1, x0:x1])
+    people, covered = hide(people, solid)
+    ignored = np.concatenate([hide(ignored, solid)[0], covered])
+    found, area = np.array([[x0, y0, x1, y1]], np.float64), (x1 - x0) * (y1 - y0)
+    clear = area >= LABELLED_SHARE * full_area or area >= LABELLED_FILL * side * side
+    if clear and min(x1 - x0, y1 - y0) >= SMALLEST_SIDE:
+        return np.concatenate([people, found]), ignored
+    return people, np.concatenate([ignored, found])
+
+
+def placed(cutout, cut_below, side, generator):
+    """The cut-out on an empty picture of that side, anywhere and of any size; and its whole area, px."""
     height = side * np.exp(generator.uniform(np.log(0.12), np.log(1.5)))
-    angle = np.radians(generator.normal(0, 6))
-    linear = linear_map(height / cutout.shape[0], np.exp(generator.uniform(-0.15, 0.15)), angle,
+    factor = height / cutout.shape[0]
+    linear = linear_map(1.0, np.exp(generator.uniform(-0.15, 0.15)), np.radians(generator.normal(0, 6)),
                         generator.random() < 0.5)
     if cut_below:
         target = (generator.uniform(0, side), side + generator.uniform(0, 0.25) * height)
     else:
         target = (generator.uniform(0, side), generator.uniform(0.35 * side, side + 0.3 * height))
-    matrix = affine(linear, (cutout.shape[1] / 2, cutout.shape[0]), target)
     source = shade(cutout, generator)
-    if height < 0.6 * cutout.shape[0]:
-        factor = height / cutout.shape[0]
+    if factor < 0.6:  # bilinear sampling would skip pixels
         source = cv2.resize(source, None, fx=factor, fy=factor, interpolation=cv2.INTER_AREA)
-        matrix[:, :2] /= factor
+    linear = linear * (height / source.shape[0])
+    matrix = affine(linear, (source.shape[1] / 2, source.shape[0]), target)
     layer = cv2.warpAffine(source, matrix, (side, side), flags=cv2.INTER_LINEAR)
-    solid = layer[:, :, 3] > 127
-    columns, rows = np.flatnonzero(solid.any(0)), np.flatnonzero(solid.any(1))
-    if not len(columns):
-        return people, ignored
-    found = np.array([columns[0], rows[0], columns[-1] + 1, rows[-1] + 1], np.float64)
-    x0, y0, x1, y1 = found.astype(int)
-    alpha = layer[y0:y1, x0:x1, 3:].astype(np.float32) / 255
-    part = picture[y0:y1, x0:x1]
-    part[:] = (part + alpha * (layer[y0:y1, x0:x1, :3].astype(np.float32) - part)).astype(np.uint8)
-    people, covered = hide(people, solid)
-    ignored = np.concatenate([hide(ignored, solid)[0], covered])
-    if min(x1 - x0, y1 - y0) < SMALLEST_SIDE or (x1 - x0) * (y1 - y0) < 0.1 * height * height * 0.3:
-        return people, np.concatenate([ignored, found[None]])
-    return np.concatenate([people, found[None]]), ignored
+    return layer, height * height * cutout.shape[1] / cutout.shape[0]
+
+
+def blend(part, layer):
+    alpha = layer[:, :, 3:].astype(np.float32) / 255
+    part[:] = (part + alpha * (layer[:, :, :3].astype(np.float32) - part)).astype(np.uint8)
 
 
 def hide(boxes, solid):

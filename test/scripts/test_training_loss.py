@@ -6,9 +6,9 @@ from training_support import network, torch
 
 from training.assignment import assign, worst_ratios
 from training.boxes import complete_iou, overlaps, torch_iou
+from training.head import Head
 from training.imitation import Imitation
 from training.loss import LossSettings, Targets, detection_loss, objectness_targets
-from training.network import Head
 
 HEAD = Head(8, ((16.0, 32.0), (32.0, 64.0)), 1, 2.0, True)
 

@@ -142,10 +142,12 @@ class Trainer:
             optimizer.zero_grad(set_to_none=True)
         loss.backward()
         norm = torch.nn.utils.clip_grad_norm_(self.network.parameters(), LONGEST_GRADIENT)
-        if torch.isfinite(norm):
-            for optimizer in optimizers:
-                optimizer.step()
-            self.average.update(self.network)
+        if not torch.isfinite(norm):
+            raise InputError(f"the loss is not finite any more after {self.n_pictures} pictures: go on from the last "
+                             "checkpoint with a lower --rate")
+        for optimizer in optimizers:
+            optimizer.step()
+        self.average.update(self.network)
         return {**parts, "rate": rate, "gradient": float(norm)}
 
     def _loss(self, batch):

@@ -73,6 +73,17 @@ def test_training_learns_and_keeps_the_best(tmp_path):
     assert len(lines) == 3 and lines[0].startswith("pictures\thours\tap")
 
 
+def test_training_that_explodes_says_so_and_keeps_its_checkpoint(tmp_path):
+    made = trainer(person_folder(tmp_path / "data", 3), tmp_path / "run")
+    made.save()
+    before = (tmp_path / "run" / CHECKPOINT).read_bytes()
+    with torch.no_grad():
+        made.network.layers[0].convolution.weight[0] = float("inf")
+    with pytest.raises(InputError, match="not finite any more after 0 pictures.*lower --rate"):
+        made.run()
+    assert (tmp_path / "run" / CHECKPOINT).read_bytes() == before
+
+
 def test_checkpoints_that_do_not_fit_are_refused(tmp_path):
     folder = person_folder(tmp_path / "data", 3)
     made = trainer(folder, tmp_path / "run")

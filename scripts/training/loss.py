@@ -30,6 +30,9 @@ class Targets:
     ignored: torch.Tensor
     ignored_picture: torch.Tensor
 
+    def to(self, device):
+        return Targets(*(tensor.to(device) for tensor in vars(self).values()))
+
 
 def detection_loss(raw, heads, targets, input_size, settings=LossSettings()):
     """raw: the network's outputs, a tensor a head. Returns the loss to be minimised and its parts (floats: box,

@@ -2,7 +2,6 @@
 
 import json
 import os
-import random
 import signal
 import time
 from dataclasses import dataclass
@@ -16,8 +15,8 @@ from .accuracy import measure
 from .averaging import Average
 from .checkpoint import read_checkpoint, write_checkpoint
 from .curves import draw_curves, write_table
-from .loss import detection_loss
 from .imitation import Imitation
+from .loss import detection_loss
 from .network import initialise
 from .samples import Batches, Collate
 from .weights import save_weights
@@ -152,10 +151,9 @@ class Trainer:
 
     def _loss(self, batch):
         pictures = batch.pictures.to(self._device).float() / 255
-        targets = type(batch.targets)(*(tensor.to(self._device) for tensor in vars(batch.targets).values()))
         with torch.autocast(self._device.type, torch.bfloat16, enabled=self._device.type == "cuda"):
             raw, features = self.network(pictures, features=True)
-        loss, parts = detection_loss(raw, self.network.heads, targets, pictures.shape[:1:-1])
+        loss, parts = detection_loss(raw, self.network.heads, batch.targets.to(self._device), pictures.shape[:1:-1])
         if self._imitation is not None:
             imitation = self._imitation.loss(features, [logits.to(self._device) for logits in batch.soft])
             loss, parts = loss + imitation, {**parts, "imitation": float(imitation)}
@@ -201,5 +199,4 @@ def start_worker(_):
     import cv2
     cv2.setNumThreads(1)
     torch.set_num_threads(1)
-    random.seed(0)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the trainer's

@@ -68,7 +68,12 @@ int train(ToolOptions& options) {
   const Vocabulary vocabulary = train_vocabulary(images, options.training);
   bar.finish();
   save_vocabulary(options.output, vocabulary);
-  if (!options.quiet) std::cout << "pictures    " << images.size() << "\n" << to_text(vocabulary);
+  std::size_t n_features = 0;
+  for (const ImageDescriptors& image : images) n_features += image.size();
+  if (!options.quiet) {
+    std::cout << "pictures    " << images.size() << "\nfeatures    " << n_features << "\n"
+              << to_text(vocabulary);
+  }
   return kExitOk;
 }
 

@@ -10,6 +10,7 @@
 #include "common/left_out.h"
 #include "common/network_options.h"
 #include "common/output_folder.h"
+#include "common/picture_source.h"
 #include "common/progress_bar.h"
 #include "common/run_program.h"
 #include "common/stop_signal.h"
@@ -19,7 +20,6 @@
 #include "io/atomic_file.h"
 #include "io/image_reader.h"
 #include "io/person_boxes.h"
-#include "picture_source.h"
 
 namespace cpslam::program {
 namespace {

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "common/console_log.h"
@@ -19,6 +21,7 @@
 #include "cpslam/system.h"
 #include "detect/recording_detector.h"
 #include "io/atomic_file.h"
+#include "io/bundled_file.h"
 #include "io/person_boxes.h"
 #include "io/trajectory_error.h"
 #include "io/trajectory_io.h"
@@ -31,11 +34,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string find_vocabulary(const std::string& name) {
+  if (name != "-") return name;
+  const std::string bundled = "Vocabulary/cpslam.voc";
+  if (std::optional<std::string> path = find_bundled_file(bundled)) return *path;
+  throw InputError("the bundled vocabulary is missing: " + not_bundled_text(bundled) +
+                   "; name another one instead of -");
+}
+
 Settings effective_settings(const RgbdTumOptions& options) {
   Settings settings = load_settings(options.settings);
   settings.sequential = options.sequential;
   settings.realtime = options.realtime;
   settings.seed = options.seed;
+  settings.vocabulary = find_vocabulary(options.vocabulary);
   apply(options.detector, settings);
   return settings;
 }
@@ -58,16 +70,6 @@ std::vector<RgbdEntry> select_entries(const RgbdTumOptions& options) {
   entries.erase(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(options.start));
   if (options.max_frames) entries.resize(std::min(entries.size(), *options.max_frames));
   return entries;
-}
-
-void check_vocabulary(const RgbdTumOptions& options) {
-  if (options.vocabulary != "-" && !fs::exists(options.vocabulary)) {
-    throw InputError(options.vocabulary + ": no such vocabulary; give - to go without");
-  }
-  if (!options.quiet) {
-    std::fprintf(stderr, "note: this version does not recognise places: no loops are closed%s\n",
-                 options.vocabulary == "-" ? "" : ", and the vocabulary is not read");
-  }
 }
 
 /// The settings' detector, wrapped to keep what it finds when that is to be saved.
@@ -146,7 +148,6 @@ int main_program(const RgbdTumOptions& options) {
   report.sequence = options.sequence;
   report.settings = effective_settings(options);
   if (options.print_settings) std::cout << to_yaml(report.settings) << std::flush;
-  check_vocabulary(options);
   note_missing_detector(options);
   const std::vector<RgbdEntry> entries = select_entries(options);
   prepare_output_folder("--output", options.output);

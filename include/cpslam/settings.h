@@ -95,6 +95,7 @@ struct Settings {
   MappingSettings mapping;
   DetectorSettings detector;
   PeopleSettings people;
+  std::string vocabulary;  ///< file with the words of images (vocabulary_tool); empty: no place is recognised
   bool sequential =
       false;               ///< all stages one after the other in the caller's thread: reproducible to the bit
   bool realtime = false;   ///< never wait for the mapper; its load takes part in keyframe decisions

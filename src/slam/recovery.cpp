@@ -15,6 +15,7 @@ constexpr std::size_t kMinMatches = 12;
 constexpr int kMinInliers = 12;
 constexpr std::size_t kNeighbours = 2;
 constexpr std::size_t kLatest = 2;
+constexpr std::size_t kAlike = 5;
 
 struct KeyFramePoints {
   std::shared_ptr<const FrameFeatures> features;
@@ -40,7 +41,8 @@ KeyFramePoints copy_points(const Map& map, KeyFrameId id) {
 
 }  // namespace
 
-int recover_from_keyframe(const Rig& rig, const Map& map, KeyFrameId keyframe, Random& random, Frame& frame) {
+int recover_from_keyframe(const Rig& rig, const Map& map, KeyFrameId keyframe, Random& random, Frame& frame,
+                          const std::optional<IndexPair>& indices) {
   frame.matches.assign(frame.matches.size(), PointMatch{});
   const KeyFramePoints known = copy_points(map, keyframe);
   if (known.keypoints.size() < kMinMatches) return 0;
@@ -50,8 +52,10 @@ int recover_from_keyframe(const Rig& rig, const Map& map, KeyFrameId keyframe, R
   options.max_distance = kStrictDistance;
   options.ratio = 0.85F;
   options.check_rotation = true;
-  const std::vector<KeypointMatch> pairs =
-      match_by_appearance({*frame.features, all}, {*known.features, known.keypoints}, options);
+  const KeypointSet in_frame{*frame.features, all};
+  const KeypointSet in_keyframe{*known.features, known.keypoints};
+  const std::vector<KeypointMatch> pairs = indices ? match_by_words(in_frame, in_keyframe, *indices, options)
+                                                   : match_by_appearance(in_frame, in_keyframe, options);
   if (pairs.size() < kMinMatches) return 0;
   std::vector<PoseHypothesisMatch> hypotheses;
   hypotheses.reserve(pairs.size());
@@ -70,23 +74,26 @@ int recover_from_keyframe(const Rig& rig, const Map& map, KeyFrameId keyframe, R
   return 0;
 }
 
-std::vector<KeyFrameId> recovery_candidates(const Map& map, KeyFrameId reference, std::size_t attempt) {
-  const std::shared_lock lock(map.mutex());
+std::vector<KeyFrameId> recovery_candidates(const Map& map, const Places* places, KeyFrameId reference,
+                                            const BowVector& bow) {
   std::vector<KeyFrameId> candidates;
   const auto add = [&](KeyFrameId id) {
     if (id.valid() && std::find(candidates.begin(), candidates.end(), id) == candidates.end()) {
       candidates.push_back(id);
     }
   };
-  const KeyFrameId centre = map.living(reference);
-  add(centre);
-  const std::vector<KeyFrameId> all = map.keyframes_by_sequence();
-  for (std::size_t i = 0; i < std::min(kLatest, all.size()); ++i) add(all[all.size() - 1 - i]);
-  for (const KeyFrameId id : map.best_covisible(centre, kNeighbours)) add(id);
-  if (!all.empty()) {
-    add(all[(2 * attempt) % all.size()]);
-    add(all[(2 * attempt + 1) % all.size()]);
+  {
+    const std::shared_lock lock(map.mutex());
+    const KeyFrameId centre = map.living(reference);
+    add(centre);
+    const std::vector<KeyFrameId> all = map.keyframes_by_sequence();
+    for (std::size_t i = 0; i < std::min(kLatest, all.size()); ++i) add(all[all.size() - 1 - i]);
+    for (const KeyFrameId id : map.best_covisible(centre, kNeighbours)) add(id);
   }
+  if (places == nullptr) return candidates;
+  PlaceQuery query;
+  query.max_candidates = kAlike;
+  for (const PlaceCandidate& alike : places->database.candidates(map, bow, query)) add(alike.keyframe);
   return candidates;
 }
 

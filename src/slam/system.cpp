@@ -8,8 +8,10 @@
 #include "cpslam/error.h"
 #include "detect/people.h"
 #include "features/image_check.h"
+#include "place/vocabulary_file.h"
 #include "slam/frame_input.h"
 #include "slam/local_mapping.h"
+#include "slam/places.h"
 #include "slam/rig.h"
 #include "slam/tracking.h"
 #include "util/worker.h"
@@ -24,6 +26,12 @@ Settings checked(const Settings& settings) {
   return settings;
 }
 
+/// Null when no place is to be recognised.
+std::unique_ptr<Places> make_places(const Settings& settings) {
+  if (settings.vocabulary.empty()) return nullptr;
+  return std::make_unique<Places>(load_vocabulary(settings.vocabulary));
+}
+
 }  // namespace
 
 class System::Impl {
@@ -32,10 +40,11 @@ class System::Impl {
       : log_(std::move(log)),
         rig_(checked(settings)),
         map_(rig_.pyramid),
+        places_(make_places(rig_.settings)),
         features_(rig_.settings.camera, rig_.settings.orb),
         people_(rig_.settings, std::move(detector), timer_, log_),
-        mapping_(rig_, map_, timer_),
-        tracking_(rig_, map_, timer_, log_) {
+        mapping_(rig_, map_, places_.get(), timer_),
+        tracking_(rig_, map_, places_.get(), timer_, log_) {
     if (rig_.settings.sequential) return;
     mapper_.emplace(
         [this](KeyFrameId&& id, const std::stop_token& stop) {
@@ -200,6 +209,7 @@ class System::Impl {
   const Rig rig_;
   StageTimer timer_;
   Map map_;
+  std::unique_ptr<Places> places_;
   FrameFeaturesBuilder features_;
   People people_;
   LocalMapping mapping_;

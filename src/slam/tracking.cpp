@@ -21,8 +21,8 @@ constexpr double kMaxTurnRadPerS = 12.0;
 
 }  // namespace
 
-Tracking::Tracking(const Rig& rig, Map& map, StageTimer& timer, Log log)
-    : rig_(rig), map_(map), timer_(timer), log_(std::move(log)), placer_(rig, map, timer) {}
+Tracking::Tracking(const Rig& rig, Map& map, const Places* places, StageTimer& timer, Log log)
+    : rig_(rig), map_(map), timer_(timer), log_(std::move(log)), placer_(rig, map, places, timer) {}
 
 KeyFrameId Tracking::take_keyframe() {
   return std::exchange(new_keyframe_, KeyFrameId{});
@@ -77,7 +77,7 @@ bool Tracking::place(Frame& frame) {
       last_.cam_from_world = last_from_reference_ * *reference_from_world;
     }
   }
-  const PlacementPrior prior{last_, last_inliers_, predicted_pose(frame.time_s), frames_without_pose_};
+  const PlacementPrior prior{last_, last_inliers_, predicted_pose(frame.time_s)};
   std::optional<Placement> placement = placer_.place(prior, frame);
   if (!placement) return false;
   placement_ = *std::move(placement);

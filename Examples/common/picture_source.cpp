@@ -1,4 +1,4 @@
-#include "picture_source.h"
+#include "common/picture_source.h"
 
 #include <filesystem>
 #include <sstream>

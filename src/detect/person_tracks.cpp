@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMostImageMotionPx = 40.0;
 // Rims that a wrong motion, the shutter and the depth image's own instant let seem to arrive.
-constexpr double kMotionPxPerRimCell = 5.0;
+constexpr double kMotionPxPerRimCell = 3.0;
 
 /// How far the image of something 2 m away moves, at most.
 double image_motion_px(const GridCamera& camera, const SE3& motion) {

@@ -17,9 +17,12 @@ constexpr float kMotionWindowsPx[] = {15.0F, 30.0F, 60.0F};
 // A frame that keeps less than this share of the last one's inliers may have been placed by chance:
 // repetitive furniture gives some dozen consistent matches almost anywhere.
 constexpr double kSuspiciousShare = 0.3;
-// Of the points around a place that is recognised. Measured in rooms with desks of one kind: 0.10 and more
-// where it is right, 0.06 and less where it is another desk (docs/benchmarks.md).
-constexpr double kMinFoundShare = 0.09;
+// A place that is recognised without knowing where the camera was needs more than one that follows from the
+// frame before: so many times Tracking.minInliers points, and this share of those that should be visible.
+// Another desk of the same kind has reached 135 points with a share of 0.13, a corner of the map 56 with 0.34
+// (docs/benchmarks.md).
+constexpr int kRecognisedInliers = 2;
+constexpr double kMinFoundShare = 0.15;
 
 bool are_neighbours(const Map& map, KeyFrameId a, KeyFrameId b) {
   const std::shared_lock lock(map.mutex());
@@ -87,7 +90,8 @@ std::optional<FramePlacer::Recognised> FramePlacer::by_keyframe(KeyFrameId keyfr
   // The rough pose first gathers more points in wide windows, then settles in narrow ones.
   (void)in_local_map(3.0F, recognised.local_map, recognised.frame);
   std::optional<Placement> placement = in_local_map(1.0F, recognised.local_map, recognised.frame);
-  if (!placement) return std::nullopt;
+  if (!placement || placement->inliers < kRecognisedInliers * rig_.settings.tracking.min_inliers)
+    return std::nullopt;
   if (found_share(rig_, recognised.local_map, recognised.frame) < kMinFoundShare) return std::nullopt;
   recognised.placement = *std::move(placement);
   return recognised;

@@ -21,15 +21,17 @@ COVERED_COLOUR, COVERED_DEPTH = "covered_colour.png", "covered_depth.png"
 
 class KidnappedSequence(Sequence):
     """Frames 0 to n_map - 1 of a source that passes everywhere twice, then `kidnaps` times: n_covered black frames and
-    n_back frames from a random place of the second pass, never near the one before. Stamps go on as if nothing were.
+    n_back frames from a random place of the second pass, which begins at second_pass, never near the one before. With
+    n_map below second_pass the rest is not mapped. Stamps go on as if nothing were.
 
     visits: [(stamp of the first frame, stamp of the last)] of each coming back, once the sequence is ready."""
 
-    def __init__(self, source, work_dir, n_map, kidnaps, n_covered, n_back, seed):
+    def __init__(self, source, work_dir, n_map, second_pass, kidnaps, n_covered, n_back, seed):
         super().__init__(f"{source.name}, {kidnaps} kidnaps", os.path.join(
             work_dir, os.path.basename(source.directory) + "_kidnapped"), source.settings)
         self.source = source
         self.n_map = n_map
+        self.second_pass = second_pass
         self.kidnaps = kidnaps
         self.n_covered = n_covered
         self.n_back = n_back
@@ -39,7 +41,7 @@ class KidnappedSequence(Sequence):
     @property
     def end_of_mapping(self):
         """Stamp of the first covered frame."""
-        return self.visits[0][0] - (self.n_covered - 0.5) * INTERVAL_S
+        return self.visits[0][0] - (self.n_covered + 0.5) * INTERVAL_S
 
     @contextlib.contextmanager
     def ready(self):
@@ -84,7 +86,8 @@ class KidnappedSequence(Sequence):
     def _order(self, n_frames):
         """Frames of the source in the order in which they are shown; None for a covered one."""
         order = list(range(self.n_map))
-        for start in visit_starts(self.n_map, n_frames - self.n_back, self.kidnaps, np.random.default_rng(self.seed)):
+        for start in visit_starts(self.second_pass, n_frames - self.n_back, self.kidnaps,
+                                  np.random.default_rng(self.seed)):
             order += [None] * self.n_covered + list(range(start, start + self.n_back))
         return order
 

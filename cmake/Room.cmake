@@ -47,3 +47,16 @@ function(cpslam_add_program name)
   endforeach()
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()
+
+# cpslam_bundle(<folder> <patterns...>): files of a folder of the source tree that come with the programs. In the build
+# tree they are found through a link beside the programs, installed they lie in share/cpslam (io/bundled_file.h).
+function(cpslam_bundle folder)
+  set(patterns)
+  foreach(pattern IN LISTS ARGN)
+    list(APPEND patterns PATTERN ${pattern})
+  endforeach()
+  file(MAKE_DIRECTORY ${CMAKE_RUNTIME_OUTPUT_DIRECTORY})
+  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${folder} ${CMAKE_RUNTIME_OUTPUT_DIRECTORY}/${folder} SYMBOLIC)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_DATADIR}/cpslam OPTIONAL
+          FILES_MATCHING ${patterns})
+endfunction()

@@ -36,6 +36,8 @@ Settings effective_settings(const RgbdTumOptions& options) {
   settings.sequential = options.sequential;
   settings.realtime = options.realtime;
   settings.seed = options.seed;
+  settings.loops.enabled = !options.no_loop;
+  if (options.vocabulary != "-") settings.vocabulary = options.vocabulary;
   apply(options.detector, settings);
   return settings;
 }

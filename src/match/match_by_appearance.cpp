@@ -31,22 +31,6 @@ bool distinct(const Nearest& nearest, const MatchOptions& options) {
               options.ratio * static_cast<float>(nearest.second_distance));
 }
 
-std::vector<KeypointMatch> drop_rotated(const KeypointSet& a, const KeypointSet& b,
-                                        const std::vector<KeypointMatch>& matches) {
-  std::vector<float> differences;
-  differences.reserve(matches.size());
-  for (const KeypointMatch& match : matches) {
-    differences.push_back(a.features.keypoints[static_cast<std::size_t>(match.a)].angle_deg -
-                          b.features.keypoints[static_cast<std::size_t>(match.b)].angle_deg);
-  }
-  const std::vector<bool> agrees = agrees_with_majority(differences);
-  std::vector<KeypointMatch> kept;
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    if (agrees[i]) kept.push_back(matches[i]);
-  }
-  return kept;
-}
-
 }  // namespace
 
 std::vector<KeypointMatch> match_by_appearance(const KeypointSet& a, const KeypointSet& b,
@@ -68,7 +52,7 @@ std::vector<KeypointMatch> match_by_appearance(const KeypointSet& a, const Keypo
     const auto j = static_cast<std::size_t>(of_a[i].index);
     if (of_b[j].index == static_cast<int>(i)) matches.push_back({a.indices[i], b.indices[j]});
   }
-  return options.check_rotation ? drop_rotated(a, b, matches) : matches;
+  return options.check_rotation ? keep_majority_rotation(a.features, b.features, matches) : matches;
 }
 
 std::vector<KeypointMatch> match_by_epipolar_line(const KeypointSet& a, const KeypointSet& b,
@@ -111,7 +95,23 @@ std::vector<KeypointMatch> match_by_epipolar_line(const KeypointSet& a, const Ke
       matches.push_back({index_a, index_b});
     }
   }
-  return options.check_rotation ? drop_rotated(a, b, matches) : matches;
+  return options.check_rotation ? keep_majority_rotation(a.features, b.features, matches) : matches;
+}
+
+std::vector<KeypointMatch> keep_majority_rotation(const FrameFeatures& a, const FrameFeatures& b,
+                                                  const std::vector<KeypointMatch>& matches) {
+  std::vector<float> differences;
+  differences.reserve(matches.size());
+  for (const KeypointMatch& match : matches) {
+    differences.push_back(a.keypoints[static_cast<std::size_t>(match.a)].angle_deg -
+                          b.keypoints[static_cast<std::size_t>(match.b)].angle_deg);
+  }
+  const std::vector<bool> agrees = agrees_with_majority(differences);
+  std::vector<KeypointMatch> kept;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (agrees[i]) kept.push_back(matches[i]);
+  }
+  return kept;
 }
 
 }  // namespace cpslam

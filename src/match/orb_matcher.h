@@ -56,6 +56,11 @@ struct KeypointSet {
 [[nodiscard]] std::vector<KeypointMatch> match_by_appearance(const KeypointSet& a, const KeypointSet& b,
                                                              const MatchOptions& options);
 
+/// The matches whose change of orientation agrees with the majority's (see agrees_with_majority()).
+[[nodiscard]] std::vector<KeypointMatch> keep_majority_rotation(const FrameFeatures& a,
+                                                                const FrameFeatures& b,
+                                                                const std::vector<KeypointMatch>& matches);
+
 /// Geometry of a pair of views: x_b^T fundamental_ba x_a = 0 for undistorted homogeneous pixels.
 struct EpipolarGeometry {
   Eigen::Matrix3d fundamental_ba = Eigen::Matrix3d::Zero();

@@ -33,19 +33,21 @@ bool is_redundant(const Rig& rig, const Map& map, KeyFrameId id) {
 
 }  // namespace
 
-void cull_keyframes(const Rig& rig, Map& map, KeyFrameId around) {
+std::vector<KeyFrameId> cull_keyframes(const Rig& rig, Map& map, KeyFrameId around) {
   std::vector<KeyFrameId> neighbours;
   {
     const std::shared_lock lock(map.mutex());
     const KeyFrame* keyframe = map.keyframe(around);
-    if (keyframe == nullptr) return;
+    if (keyframe == nullptr) return {};
     neighbours = map.best_covisible(around, keyframe->covisible.size());
   }
+  std::vector<KeyFrameId> culled;
   for (const KeyFrameId id : neighbours) {
     // One lock for the question and the act: the answer changes with every keyframe freed.
     const std::unique_lock lock(map.mutex());
-    if (is_redundant(rig, map, id)) map.erase_keyframe(id);
+    if (is_redundant(rig, map, id) && map.erase_keyframe(id)) culled.push_back(id);
   }
+  return culled;
 }
 
 }  // namespace cpslam

@@ -32,7 +32,9 @@ void LocalMapping::process(KeyFrameId keyframe, const std::atomic<bool>& abort) 
     ++bundle_adjustments_;
   }
   const auto scope = timer_.time("map: keyframe culling");
-  cull_keyframes(rig_, map_, keyframe);
+  const std::vector<KeyFrameId> culled = cull_keyframes(rig_, map_, keyframe);
+  if (places_ == nullptr) return;
+  for (const KeyFrameId id : culled) places_->database.erase(id);
 }
 
 }  // namespace cpslam

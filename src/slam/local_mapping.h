@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "map/map.h"
+#include "slam/places.h"
 #include "slam/recent_points.h"
 #include "slam/rig.h"
 #include "util/stage_timer.h"
@@ -15,7 +16,9 @@ namespace cpslam {
 /// the map's lock only to copy and to write back.
 class LocalMapping {
  public:
-  LocalMapping(const Rig& rig, Map& map, StageTimer& timer) : rig_(rig), map_(map), timer_(timer) {}
+  /// places: forgets the keyframes that are freed; may be null.
+  LocalMapping(const Rig& rig, Map& map, Places* places, StageTimer& timer)
+      : rig_(rig), map_(map), places_(places), timer_(timer) {}
 
   /// abort, read between and inside the longer steps, ends the work early with a consistent map.
   void process(KeyFrameId keyframe, const std::atomic<bool>& abort);
@@ -25,6 +28,7 @@ class LocalMapping {
  private:
   const Rig& rig_;
   Map& map_;
+  Places* places_;
   StageTimer& timer_;
   RecentPoints recent_points_;
   std::atomic<std::size_t> bundle_adjustments_ = 0;

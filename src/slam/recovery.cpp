@@ -40,7 +40,8 @@ KeyFramePoints copy_points(const Map& map, KeyFrameId id) {
 
 }  // namespace
 
-int recover_from_keyframe(const Rig& rig, const Map& map, KeyFrameId keyframe, Random& random, Frame& frame) {
+int recover_from_keyframe(const Rig& rig, const Map& map, KeyFrameId keyframe, Random& random, Frame& frame,
+                          const std::optional<IndexPair>& indices) {
   frame.matches.assign(frame.matches.size(), PointMatch{});
   const KeyFramePoints known = copy_points(map, keyframe);
   if (known.keypoints.size() < kMinMatches) return 0;
@@ -50,8 +51,10 @@ int recover_from_keyframe(const Rig& rig, const Map& map, KeyFrameId keyframe, R
   options.max_distance = kStrictDistance;
   options.ratio = 0.85F;
   options.check_rotation = true;
-  const std::vector<KeypointMatch> pairs =
-      match_by_appearance({*frame.features, all}, {*known.features, known.keypoints}, options);
+  const KeypointSet in_frame{*frame.features, all};
+  const KeypointSet in_keyframe{*known.features, known.keypoints};
+  const std::vector<KeypointMatch> pairs = indices ? match_by_words(in_frame, in_keyframe, *indices, options)
+                                                   : match_by_appearance(in_frame, in_keyframe, options);
   if (pairs.size() < kMinMatches) return 0;
   std::vector<PoseHypothesisMatch> hypotheses;
   hypotheses.reserve(pairs.size());

@@ -45,8 +45,9 @@ def parse(arguments):
                         help="where the paper's sequences lie, in folders called as TUM and Bonn call them "
                         "(default: CPSLAM_DATASETS, else ~/datasets)")
     parser.add_argument("--detector-arguments", default="", metavar="TEXT",
-                        help="options of rgbd_tum for sequences without person_boxes.txt, in one argument: "
-                        "--detector-arguments='--detector yolo --model CFG WEIGHTS' (default: no detector)")
+                        help="options of rgbd_tum for sequences without person_boxes.txt, and for the trial people_detector, "
+                        "in one argument: --detector-arguments='--detector yolo --model CFG WEIGHTS' (default: no detector, "
+                        "in people_detector the network that comes with CP-SLAM)")
     parser.add_argument("--figures", metavar="DIR",
                         help="draw the median run's trajectory and RPE there (trials paper and people_wait)")
     parser.add_argument("--people-presets", nargs="+", choices=PEOPLE_PRESETS, default=list(PEOPLE_PRESETS),

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # From a fresh checkout to two trajectories: installs what is missing, builds, simulates an RGB-D sequence of an office
-# where people walk, runs rgbd_tum on it with the people's boxes and without, prints the errors of both and draws them in
-# one picture. Everything is written to demo_output/.
+# where people walk, runs rgbd_tum on it with the person detector and without, prints the errors of both and draws them in
+# one picture. Everything is written to demo_output/. --exact-boxes gives the filter the simulator's boxes instead of the
+# detector's; so it is where there is no detector's network, models/yc.weights.
 #
-#   demo.sh [--preset NAME] [--people N] [--frames N] [--seed N] [--no-install]
+#   demo.sh [--preset NAME] [--people N] [--frames N] [--seed N] [--exact-boxes] [--no-install]
 set -euo pipefail
 # shellcheck source=scripts/lib.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
@@ -13,14 +14,17 @@ people=
 frames=300
 seed=1
 install=yes
+boxes=yolo
+if [[ ! -f "$ROOT/models/yc.weights" ]]; then boxes=exact; fi
 while (($#)); do
   case "$1" in
     --preset) preset="${2:?--preset needs a name}" && shift 2 ;;
     --people) people="${2:?--people needs a number}" && shift 2 ;;
     --frames) frames="${2:?--frames needs a number}" && shift 2 ;;
     --seed) seed="${2:?--seed needs a number}" && shift 2 ;;
+    --exact-boxes) boxes=exact && shift ;;
     --no-install) install=no && shift ;;
-    *) usage_error "unknown option '$1' (known: --preset NAME, --people N, --frames N, --seed N, --no-install)" ;;
+    *) usage_error "unknown option '$1' (known: --preset NAME, --people N, --frames N, --seed N, --exact-boxes, --no-install)" ;;
   esac
 done
 # Six people before a turning camera: without the filter it is carried along with them.
@@ -43,9 +47,15 @@ say "Simulating $frames frames of '$preset' with the noise of a structured-light
 "$BIN/simulate_tum" "$preset" "$SEQUENCE" --frames "$frames" --noise --seed "$seed" --force \
   ${people:+--people "$people"}
 
-say "Running rgbd_tum with the boxes of the people, drawing what it removes"
 rm -rf -- "$OUTPUT/pictures" # those of an earlier, longer run
-run_on_sequence filter --boxes "$SEQUENCE/person_boxes.txt" --draw "$OUTPUT/pictures"
+if [[ $boxes == yolo ]]; then
+  say "Running rgbd_tum with the person detector, drawing what it removes"
+  detector=(--detector yolo)
+else
+  say "Running rgbd_tum with the simulator's boxes of the people, drawing what it removes"
+  detector=(--boxes "$SEQUENCE/person_boxes.txt")
+fi
+run_on_sequence filter "${detector[@]}" --draw "$OUTPUT/pictures"
 
 say "Running rgbd_tum without a filter"
 run_on_sequence no_filter --detector none

@@ -12,7 +12,7 @@ readonly PACKAGES=(
   g++ cmake ninja-build ccache
   libopencv-dev libeigen3-dev libceres-dev libsuitesparse-dev libcli11-dev nlohmann-json3-dev
   libgtest-dev libgmock-dev libbenchmark-dev
-  python3 python3-numpy python3-matplotlib python3-pytest
+  python3 python3-numpy python3-matplotlib python3-pil python3-pytest
 )
 # Another path is for the tests.
 readonly OS_RELEASE="${CPSLAM_OS_RELEASE:-/etc/os-release}"

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "common/setting_names.h"
+#include "cpslam/person_detector.h"
 
 namespace cpslam::program {
 namespace {
@@ -33,31 +34,27 @@ CLI::Option* add_choice(CLI::App& app, const std::string& name, std::optional<Va
   throw CLI::ValidationError(option, why);
 }
 
+std::string default_text() {
+  const std::optional<DetectorModel> bundled = bundled_detector_model();
+  return bundled
+             ? "Default boxes with --boxes, else yolo with --model or the network that comes with "
+               "CP-SLAM,\n'" +
+                   bundled->weights + "'"
+             : "Default boxes with --boxes, yolo with --model, else none: there is no network to run, for\n" +
+                   no_bundled_detector_model_text();
+}
+
 void add_detector_group(CLI::App& app, DetectorOptions& options) {
   const std::string group = "People: where they are";
   add_choice(app, "--detector", options.kind, kKinds,
-             "Where the boxes around people come from: nowhere (plain ORB-SLAM2), a file, a network.\n"
-             "Default none, or what --boxes or --model say")
+             "Where the boxes around people come from: nowhere (plain ORB-SLAM2), a file, a network.\n" +
+                 default_text())
       ->group(group);
   app.add_option("--boxes", options.boxes_file,
                  "Boxes recorded before: lines 'timestamp x y width height confidence'")
       ->type_name("FILE")
       ->group(group);
-  app.add_option("--model", options.model, "Darknet YOLO network")
-      ->expected(2)
-      ->type_name("CFG WEIGHTS")
-      ->group(group);
-  app.add_option("--classes", options.classes,
-                 "Indices of the network's classes that count as people, with commas; default 0")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->check(CLI::Range(0, 9999))
-      ->type_name("INDICES")
-      ->group(group);
-  app.add_option("--quantise", options.calibration,
-                 "Run the network in 8-bit integers, calibrated on the pictures in this folder")
-      ->type_name("DIR")
-      ->group(group);
+  add_network_options(app, group, options.network);
   app.add_option("--save-boxes", options.save_boxes, "Write what the detector found, for --boxes")
       ->type_name("FILE")
       ->group(group);
@@ -98,13 +95,10 @@ void check_kind(const DetectorOptions& options) {
   const DetectorKind kind = *options.kind;
   const std::string detector = std::string("--detector ") + name_of(kind);
   const bool boxes = kind == DetectorKind::kBoxes;
-  const bool yolo = kind == DetectorKind::kYolo;
   if (!options.boxes_file.empty() && !boxes) refuse("--boxes", "does not go with " + detector);
-  if (!options.model.empty() && !yolo) refuse("--model", "does not go with " + detector);
+  const std::string of_network = first_given(options.network);
+  if (kind != DetectorKind::kYolo && !of_network.empty()) refuse(of_network, "does not go with " + detector);
   if (boxes && options.boxes_file.empty()) refuse("--detector boxes", "needs --boxes FILE");
-  if (yolo && options.model.empty()) refuse("--detector yolo", "needs --model CFG WEIGHTS");
-  if (!yolo && !options.classes.empty()) refuse("--classes", "does not go with " + detector);
-  if (!yolo && !options.calibration.empty()) refuse("--quantise", "does not go with " + detector);
 }
 
 void check_without_detector(const DetectorOptions& options) {
@@ -124,11 +118,13 @@ void add_detector_options(CLI::App& app, DetectorOptions& options) {
 
 void check(DetectorOptions& options, bool realtime) {
   if (!options.kind) {
-    if (!options.boxes_file.empty() && !options.model.empty())
+    if (!options.boxes_file.empty() && !options.network.model.empty())
       refuse("--boxes", "and --model are two detectors; give one");
+    const bool network = !options.network.model.empty() || bundled_detector_model();
     options.kind = !options.boxes_file.empty() ? DetectorKind::kBoxes
-                   : !options.model.empty()    ? DetectorKind::kYolo
+                   : network                   ? DetectorKind::kYolo
                                                : DetectorKind::kNone;
+    options.without_network = options.kind == DetectorKind::kNone;
   }
   check_kind(options);
   const bool latest =
@@ -143,13 +139,7 @@ void apply(const DetectorOptions& options, Settings& settings) {
   DetectorSettings& detector = settings.detector;
   detector.kind = options.kind.value_or(detector.kind);
   detector.boxes_file = options.boxes_file;
-  if (!options.model.empty()) {
-    detector.model_cfg = options.model.at(0);
-    detector.model_weights = options.model.at(1);
-  }
-  if (!options.classes.empty()) detector.classes = options.classes;
-  detector.quantise = !options.calibration.empty();
-  detector.calibration = options.calibration;
+  if (detector.kind == DetectorKind::kYolo) apply(options.network, detector);
   if (options.policy) detector.policy = options.policy;
   detector.pretend_rate_hz = options.pretend_rate_hz.value_or(detector.pretend_rate_hz);
   detector.pretend_delay_s = options.pretend_delay_s.value_or(detector.pretend_delay_s);

@@ -2,8 +2,8 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "common/network_options.h"
 #include "cpslam/settings.h"
 
 namespace CLI {
@@ -15,10 +15,9 @@ namespace cpslam::program {
 /// What the command line says about people; what is empty was not said.
 struct DetectorOptions {
   std::optional<DetectorKind> kind;
+  bool without_network = false;  ///< kNone only because there is no network to run
   std::string boxes_file;
-  std::vector<std::string> model;  ///< .cfg and .weights
-  std::vector<int> classes;
-  std::string calibration;  ///< folder with pictures: run the network in 8-bit integers
+  NetworkOptions network;
   std::optional<BoxesPolicy> policy;
   std::optional<double> pretend_rate_hz;
   std::optional<double> pretend_delay_s;
@@ -31,10 +30,11 @@ struct DetectorOptions {
 /// Adds them to a program's options. The results are good after check().
 void add_detector_options(CLI::App& app, DetectorOptions& options);
 
-/// Fills in what is only implied. Throws CLI::ValidationError for options that contradict each other.
+/// Says which detector it is when that is only implied: boxes or yolo by their files, else yolo when there is
+/// a bundled network, else none. Throws CLI::ValidationError for options that contradict each other.
 void check(DetectorOptions& options, bool realtime);
 
-/// Writes what was said over the settings.
+/// Writes what was said over the settings. Throws InputError as apply(NetworkOptions) does.
 void apply(const DetectorOptions& options, Settings& settings);
 
 }  // namespace cpslam::program

@@ -42,6 +42,13 @@ Settings effective_settings(const RgbdTumOptions& options) {
   return settings;
 }
 
+/// Nobody has said that people do not matter.
+void note_missing_detector(const RgbdTumOptions& options) {
+  if (!options.detector.without_network || options.quiet) return;
+  std::fprintf(stderr, "note: people are not looked for: %s. --model CFG WEIGHTS names a network\n",
+               no_bundled_detector_model_text().c_str());
+}
+
 std::vector<RgbdEntry> select_entries(const RgbdTumOptions& options) {
   std::vector<RgbdEntry> entries = options.associations.empty()
                                        ? associate_sequence(options.sequence)
@@ -142,6 +149,7 @@ int main_program(const RgbdTumOptions& options) {
   report.settings = effective_settings(options);
   if (options.print_settings) std::cout << to_yaml(report.settings) << std::flush;
   check_vocabulary(options);
+  note_missing_detector(options);
   const std::vector<RgbdEntry> entries = select_entries(options);
   prepare_output_folder("--output", options.output);
   if (!options.detector.save_boxes.empty()) check_folder_of("--save-boxes", options.detector.save_boxes);

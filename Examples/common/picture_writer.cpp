@@ -1,8 +1,6 @@
 #include "common/picture_writer.h"
 
-#include <array>
 #include <cstdint>
-#include <cstdio>
 #include <opencv2/imgcodecs.hpp>
 #include <string_view>
 #include <utility>
@@ -11,18 +9,13 @@
 #include "common/frame_painter.h"
 #include "common/output_folder.h"
 #include "io/atomic_file.h"
+#include "io/text_table.h"
 
 namespace cpslam::program {
 namespace {
 
 constexpr std::size_t kMaxWaiting = 8;
 constexpr int kJpegQuality = 90;
-
-std::string file_name(double time_s) {
-  std::array<char, 40> name{};
-  std::snprintf(name.data(), name.size(), "%.6f.jpg", time_s);
-  return name.data();
-}
 
 }  // namespace
 
@@ -69,7 +62,7 @@ void PictureWriter::write(const Picture& picture) const {
   std::vector<std::uint8_t> jpeg;
   cv::imencode(".jpg", paint(picture.image, picture.view), jpeg, {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
   const std::string_view bytes(reinterpret_cast<const char*>(jpeg.data()), jpeg.size());
-  write_file_atomically(folder_ + "/" + file_name(picture.view.time_s), bytes);
+  write_file_atomically(folder_ + "/" + stamp_text(picture.view.time_s) + ".jpg", bytes);
 }
 
 }  // namespace cpslam::program

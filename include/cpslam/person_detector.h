@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,20 @@ class PersonDetector {
   /// For messages: "YOLO models/yc.weights, 416 x 416".
   [[nodiscard]] virtual std::string name() const = 0;
 };
+
+/// A Darknet network.
+struct DetectorModel {
+  std::string cfg;      ///< path
+  std::string weights;  ///< path
+};
+
+/// The network that comes with CP-SLAM, models/yc.cfg and models/yc.weights: looked for beside the
+/// executable, in the installation and in the folder CPSLAM_DATA names, in this order. Empty when it is in
+/// none.
+[[nodiscard]] std::optional<DetectorModel> bundled_detector_model();
+
+/// Where bundled_detector_model() looks, for a message: "'models/yc.weights' is not in 'A' or 'B'".
+[[nodiscard]] std::string no_bundled_detector_model_text();
 
 /// The detector the settings ask for; null for DetectorKind::kNone. Throws InputError naming the file that is
 /// missing or broken and the way out.

@@ -58,7 +58,7 @@ enum class BoxesPolicy {
 struct DetectorSettings {
   DetectorKind kind = DetectorKind::kNone;
   std::string boxes_file;     ///< kBoxes: "timestamp x y width height confidence" a line
-  std::string model_cfg;      ///< kYolo: Darknet .cfg
+  std::string model_cfg;      ///< kYolo: Darknet .cfg; both empty: the network that comes with CP-SLAM
   std::string model_weights;  ///< kYolo: Darknet .weights
   int input_width = 0;        ///< of the network, px, a multiple of its largest stride; 0: as its .cfg says
   int input_height = 0;

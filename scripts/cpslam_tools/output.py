@@ -18,6 +18,13 @@ def write_text(path, text):
         raise InputError(f"cannot write {path}: {error.strerror}") from None
 
 
+def make_folder(path):
+    try:
+        os.makedirs(path, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"cannot make the folder {path}: {error.strerror}") from None
+
+
 def write_json(path, document):
     """Writes to a file, or to stdout when the path is '-'."""
     text = json.dumps(document, indent=2) + "\n"

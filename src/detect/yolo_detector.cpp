@@ -4,9 +4,9 @@
 #include <chrono>
 #include <cstddef>
 #include <opencv2/core/utility.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "cpslam/error.h"
+#include "detect/bgr_picture.h"
 #include "detect/calibration_pictures.h"
 
 namespace cpslam {
@@ -36,15 +36,6 @@ void check_classes(const std::vector<int>& classes, int n_classes, const std::st
     throw InputError("there is no class " + std::to_string(index) + ": those of '" + config + "' are 0 to " +
                      std::to_string(n_classes - 1));
   }
-}
-
-cv::Mat to_bgr(const cv::Mat& colour) {
-  if (colour.empty()) throw InputError("the detector was given an empty image");
-  if (colour.type() == CV_8UC3) return colour;
-  if (colour.type() != CV_8UC1) throw InputError("the detector takes CV_8UC3 or CV_8UC1 images");
-  cv::Mat bgr;
-  cv::cvtColor(colour, bgr, cv::COLOR_GRAY2BGR);
-  return bgr;
 }
 
 double milliseconds_for(YoloNetwork& network, const cv::Mat& picture) {

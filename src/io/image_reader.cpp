@@ -38,16 +38,6 @@ std::string describe(const cv::Mat& image) {
          " with " + std::to_string(image.channels()) + (image.channels() == 1 ? " channel" : " channels");
 }
 
-cv::Mat read_colour(const std::string& path) {
-  // Turning the image as its EXIF tag asks would part it from its depth.
-  cv::Mat colour = decode(path, cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
-  if (colour.type() != CV_8UC3 && colour.type() != CV_8UC1) {
-    throw InputError("colour image '" + path + "' is " + describe(colour) +
-                     ": 8-bit with 1 or 3 channels is needed");
-  }
-  return colour;
-}
-
 cv::Mat read_depth(const std::string& path) {
   cv::Mat depth = decode(path, cv::IMREAD_UNCHANGED);
   if (depth.type() != CV_16UC1 && depth.type() != CV_32FC1) {
@@ -63,12 +53,22 @@ std::string size_text(const cv::Mat& image) {
 
 }  // namespace
 
+cv::Mat read_colour_image(const std::string& path) {
+  // Turning the image as its EXIF tag asks would part it from its depth.
+  cv::Mat colour = decode(path, cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
+  if (colour.type() != CV_8UC3 && colour.type() != CV_8UC1) {
+    throw InputError("colour image '" + path + "' is " + describe(colour) +
+                     ": 8-bit with 1 or 3 channels is needed");
+  }
+  return colour;
+}
+
 RgbdImages read_rgbd(const RgbdEntry& entry) {
   RgbdImages images;
   images.time_s = entry.time_s;
   images.depth_time_s = entry.depth_time_s;
   try {
-    cv::Mat colour = read_colour(entry.colour_path);
+    cv::Mat colour = read_colour_image(entry.colour_path);
     cv::Mat depth = read_depth(entry.depth_path);
     if (colour.size() != depth.size()) {
       throw InputError("depth image '" + entry.depth_path + "' is " + size_text(depth) +

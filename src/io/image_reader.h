@@ -18,6 +18,10 @@ struct RgbdImages {
   std::string error;
 };
 
+/// An image from a PNG, JPEG or TIFF file as the camera took it, not turned as its EXIF tag asks: CV_8UC3
+/// (B,G,R) or CV_8UC1. Throws InputError naming the file and how it is bad.
+[[nodiscard]] cv::Mat read_colour_image(const std::string& path);
+
 /// Decodes one pair from PNG, JPEG or TIFF files; never throws for bad files (missing, truncated, not an
 /// image, wrong type, differing sizes): the error comes back in the result, so that a bad file costs one
 /// frame and not the run.

@@ -1,9 +1,11 @@
 #include "io/input_file.h"
 
 #include <cerrno>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <iterator>
+#include <string>
 #include <system_error>
 
 #include "cpslam/error.h"
@@ -17,10 +19,14 @@ std::string read_input_file(const std::string& path) {
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError("cannot open '" + path + "': " + std::generic_category().message(errno));
-  std::ostringstream bytes;
-  bytes << file.rdbuf();
+  // One read for a file that has a size; what has none (a pipe) comes piece by piece.
+  std::string content;
+  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
+  if (!ignored) content.resize(size);
+  file.read(content.data(), static_cast<std::streamsize>(content.size()));
+  content.resize(static_cast<std::size_t>(file.gcount()));
+  if (file) content.append(std::istreambuf_iterator<char>(file), {});
   if (file.bad()) throw InputError("cannot read '" + path + "': " + std::generic_category().message(errno));
-  std::string content = std::move(bytes).str();
   if (content.empty()) throw InputError("'" + path + "' is empty");
   return content;
 }

@@ -10,14 +10,18 @@
 
 namespace cpslam {
 
+std::string to_text(const PersonBox& box) {
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), "%.2f %.2f %.2f %.2f %.6f", box.x, box.y, box.width, box.height,
+                box.confidence);
+  return text.data();
+}
+
 void write_person_boxes(const std::string& path, const std::vector<StampedBoxes>& frames) {
   std::string text = "# person boxes: timestamp x y width height confidence (px, top-left corner)\n";
-  std::array<char, 400> line{};
   for (const StampedBoxes& frame : frames) {
     for (const PersonBox& box : frame.boxes) {
-      std::snprintf(line.data(), line.size(), "%.6f %.2f %.2f %.2f %.2f %.3f\n", frame.time_s, box.x, box.y,
-                    box.width, box.height, box.confidence);
-      text += line.data();
+      text += stamp_text(frame.time_s) + " " + to_text(box) + "\n";
     }
   }
   write_file_atomically(path, text);

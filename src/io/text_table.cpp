@@ -1,8 +1,10 @@
 #include "io/text_table.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 #include "cpslam/error.h"
 #include "io/input_file.h"
@@ -16,6 +18,12 @@ std::optional<double> parse_number(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+std::string stamp_text(double time_s) {
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), "%.6f", time_s);
+  return text.data();
 }
 
 std::string printable(std::string_view text) {

@@ -11,6 +11,9 @@ namespace cpslam {
 /// A finite number that fills the whole text ("1e-3", "+4", not "4px", not "nan"); independent of the locale.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 
+/// A time stamp as all files of ours have it: seconds with six digits.
+[[nodiscard]] std::string stamp_text(double time_s);
+
 /// A piece of a file as it may stand in a one-line message: shortened, control characters replaced.
 [[nodiscard]] std::string printable(std::string_view text);
 

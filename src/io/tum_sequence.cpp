@@ -50,6 +50,16 @@ ImageList read_list(const std::string& sequence_dir, const std::string& file) {
 
 }  // namespace
 
+std::vector<StampedImage> read_colour_list(const std::string& sequence_dir) {
+  check_sequence_dir(sequence_dir);
+  ImageList list = read_list(sequence_dir, "rgb.txt");
+  std::vector<StampedImage> images;
+  for (std::size_t i = 0; i < list.stamps.size(); ++i) {
+    images.push_back({list.stamps[i], std::move(list.paths[i])});
+  }
+  return images;
+}
+
 std::vector<RgbdEntry> associate_sequence(const std::string& sequence_dir, double max_difference_s) {
   check_sequence_dir(sequence_dir);
   const ImageList colour = read_list(sequence_dir, "rgb.txt");

@@ -13,6 +13,15 @@ struct RgbdEntry {
   std::string depth_path;
 };
 
+/// A colour image of a TUM-format sequence.
+struct StampedImage {
+  double time_s = 0.0;
+  std::string path;  ///< ready to open
+};
+
+/// The sequence's rgb.txt. Throws InputError as associate_sequence() does.
+[[nodiscard]] std::vector<StampedImage> read_colour_list(const std::string& sequence_dir);
+
 /// Pairs the sequence's rgb.txt and depth.txt: one-to-one, closest pairs first, less than max_difference_s
 /// apart. Throws InputError naming file and line for a missing, empty, malformed or unsorted list (NaN and
 /// repeated stamps included), and when no pair is found.

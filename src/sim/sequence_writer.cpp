@@ -7,18 +7,13 @@
 
 #include "cpslam/error.h"
 #include "io/person_boxes.h"
+#include "io/text_table.h"
 #include "io/trajectory_io.h"
 
 namespace cpslam::sim {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string stamp(double time_s) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6f", time_s);
-  return text.data();
-}
 
 void write_text(const fs::path& path, const std::string& text) {
   std::ofstream file(path);
@@ -71,7 +66,7 @@ void write_sequence(Simulation& simulation, const std::string& directory, const 
   bool go_on = true;
   for (int i = 0; i < simulation.size() && go_on; ++i) {
     const SimulatedFrame frame = simulation.render(i);
-    const std::string name = stamp(frame.time_s);
+    const std::string name = stamp_text(frame.time_s);
     std::string colour_file = "rgb/" + name;
     colour_file += extension;
     write_image(root / colour_file, frame.colour_bgr, colour);

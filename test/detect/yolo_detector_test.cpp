@@ -209,7 +209,7 @@ TEST_F(YoloDetectorTest, SaysWhatCalibrationLacks) {
   EXPECT_THAT(error(), HasSubstr(settings.calibration));
   folder_.write("empty/readme.txt", "nothing here");
   settings.calibration = folder_.file("empty");
-  EXPECT_THAT(error(), HasSubstr("no pictures (.png, .jpg) in the calibration folder"));
+  EXPECT_THAT(error(), HasSubstr("no pictures (.png, .jpg) in the folder"));
   const std::string picture = encode(".png", noise_image({64, 64}, CV_8UC3));
   folder_.write("broken/cut.png", picture.substr(0, picture.size() / 2));
   settings.calibration = folder_.file("broken");

@@ -21,11 +21,12 @@ TEST(CommandLine, HelpNamesEveryOption) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
   for (const char* const word :
-       {"VOCABULARY",    "SETTINGS",         "SEQUENCE",       "ASSOCIATIONS",   "--output",
-        "--detector",    "--sequential",     "--realtime",     "--start",        "--max-frames",
-        "--seed",        "--print-settings", "--quiet",        "--version",      "--boxes",
-        "--model",       "--classes",        "--quantise",     "--boxes-policy", "--boxes-rate",
-        "--boxes-delay", "--people-filter",  "--no-reinstate", "--save-boxes",   "--draw"}) {
+       {"VOCABULARY",    "SETTINGS",         "SEQUENCE",       "ASSOCIATIONS",      "--output",
+        "--detector",    "--sequential",     "--realtime",     "--start",           "--max-frames",
+        "--seed",        "--print-settings", "--quiet",        "--version",         "--boxes",
+        "--model",       "--classes",        "--quantise",     "--boxes-policy",    "--boxes-rate",
+        "--boxes-delay", "--people-filter",  "--no-reinstate", "--save-boxes",      "--draw",
+        "--input-size",  "--confidence",     "--nms",          "--detector-threads"}) {
     EXPECT_THAT(result.out, HasSubstr(word));
   }
 }

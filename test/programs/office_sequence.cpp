@@ -1,5 +1,6 @@
 #include "programs/office_sequence.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -8,6 +9,15 @@
 #include "sim/sequence_writer.h"
 
 namespace cpslam {
+namespace {
+
+bool names_detector(const std::vector<std::string>& arguments) {
+  return std::any_of(arguments.begin(), arguments.end(), [](const std::string& argument) {
+    return argument == "--detector" || argument == "--boxes" || argument == "--model";
+  });
+}
+
+}  // namespace
 
 OfficeSequence::OfficeSequence(const std::string& preset, double start_s) {
   sim::SimulationOptions options;
@@ -54,6 +64,7 @@ ProgramResult OfficeSequence::track(const std::vector<std::string>& arguments,
                                     const SignalAt& signal_at) const {
   std::vector<std::string> all{"-", settings(), path()};
   all.insert(all.end(), arguments.begin(), arguments.end());
+  if (!names_detector(arguments)) all.insert(all.end(), {"--detector", "none"});
   all.insert(all.end(), {"--output", output()});
   return run_rgbd_tum(all, signal_at);
 }

@@ -36,7 +36,8 @@ class OfficeSequence {
   /// The sequence's pairs, forward or backward.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> pairs(bool backward = false) const;
 
-  /// `rgbd_tum - SETTINGS SEQUENCE <arguments> --output output()`.
+  /// `rgbd_tum - SETTINGS SEQUENCE <arguments> --output output()`, without a detector when the arguments name
+  /// none: whether there is a bundled network makes no difference.
   [[nodiscard]] ProgramResult track(const std::vector<std::string>& arguments = {},
                                     const SignalAt& signal_at = {}) const;
   [[nodiscard]] nlohmann::json stats() const;

@@ -33,7 +33,6 @@ TEST(PeopleOptions, DetectorsThatContradictTheirFiles) {
   expect_refused(run_with({"--detector", "boxes", "--model", "a", "b"}), {"--model", "--detector boxes"});
   expect_refused(run_with({"--boxes", "b.txt", "--model", "a", "b"}), {"--boxes", "--model"});
   expect_refused(run_with({"--detector", "boxes"}), {"--detector boxes", "--boxes FILE"});
-  expect_refused(run_with({"--detector", "yolo"}), {"--detector yolo", "--model CFG WEIGHTS"});
   expect_refused(run_with({"--model", "a"}), {"--model"});
 }
 
@@ -44,6 +43,10 @@ TEST(PeopleOptions, OfTheNetwork) {
   expect_refused(run_with({"--model", "a", "b", "--classes", "-1"}), {"--classes"});
   expect_refused(run_with({"--boxes", "b.txt", "--classes", "0"}), {"--classes", "--detector boxes"});
   expect_refused(run_with({"--boxes", "b.txt", "--quantise", "x"}), {"--quantise", "--detector boxes"});
+  expect_refused(run_with({"--detector", "none", "--input-size", "320"}),
+                 {"--input-size", "--detector none"});
+  expect_understood({"--model", "a", "b", "--input-size", "320x256", "--confidence", "0.4", "--nms", "0.5",
+                     "--detector-threads", "2"});
 }
 
 TEST(PeopleOptions, PretendingNeedsTheLatestPolicy) {
@@ -69,7 +72,9 @@ TEST(PeopleOptions, NothingToFilterWithoutADetector) {
                                                   {"--no-reinstate"},
                                                   {"--save-boxes", "b.txt"},
                                                   {"--boxes-policy", "wait"}}) {
-    expect_refused(run_with(options), {options[0], "--boxes", "--model"});
+    std::vector<std::string> without = options;
+    without.insert(without.end(), {"--detector", "none"});
+    expect_refused(run_with(without), {options[0], "--boxes", "--model"});
     std::vector<std::string> with_boxes = options;
     with_boxes.insert(with_boxes.end(), {"--boxes", "b.txt"});
     expect_understood(with_boxes);

@@ -122,8 +122,8 @@ TEST(TrackingRun, AssociationsGiveTheSameAsTheLists) {
 TEST(TrackingRun, AnOldVocabularyIsAcceptedWithANotice) {
   const OfficeSequence office;
   const std::string vocabulary = office.folder().write("ORBvoc.txt", "10 6 0 0\n0 0 1 2 3\n");
-  const ProgramResult with = run_rgbd_tum(
-      {vocabulary, office.settings(), office.path(), "--output", office.output(), "--max-frames", "3"});
+  const ProgramResult with = run_rgbd_tum({vocabulary, office.settings(), office.path(), "--output",
+                                           office.output(), "--max-frames", "3", "--detector", "none"});
   EXPECT_EQ(with.exit_code, 0);
   EXPECT_EQ(count_lines(with.err, "note: "), 1U);
   EXPECT_THAT(with.err, HasSubstr("vocabulary is not read"));

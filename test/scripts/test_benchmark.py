@@ -99,7 +99,7 @@ def test_full_adds_the_long_trials(benchmark, tmp_path):
     # Everything is well but for the recorded clips, which are told to be missing.
     assert result.returncode == 1, result.stderr
     failed = {name for name, runs in document.items() if isinstance(runs, list) and any(run["error"] for run in runs)}
-    assert failed == {"people_wait", "people_latest", "people_ablation", "people_false_boxes"}
+    assert failed == {"people_wait", "people_latest", "people_detector", "people_ablation", "people_false_boxes"}
     assert "bonn_crowd_dev: not there" in cells(result.stdout, "-", "1")[-1]
     # One frame of each run is not tracked, so the target is not reached.
     row = cells(result.stdout, "room", "noise")

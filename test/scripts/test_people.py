@@ -67,6 +67,19 @@ def test_a_late_run_that_loses_frames_does_not_reach_the_aim(benchmark, clips):
     assert cells(result.stdout, "6/s, 150 ms late")[12] == "NO"
 
 
+def test_the_detectors_boxes_are_compared_with_the_recorded_ones(benchmark, clips):
+    result, document = benchmark("--trials", "people_detector", "--data", clips)
+    assert result.returncode == 0, result.stderr
+    runs = document["people_detector"]
+    assert [run["variant"] for run in runs] == [crowd.RECORDED, crowd.DETECTED] * 3
+    assert runs[1]["arguments"] == "--detector yolo --boxes-policy wait --start 0"
+    # The fake is 5 % too long with boxes, twice as far off with a network.
+    assert cells(result.stdout, crowd.DETECTED)[10:13] == ["1.90 (1.90-1.90)", "<= 1.15", "NO"]
+    _, document = benchmark("--trials", "people_detector", "--data", clips, "--detector-arguments",
+                            "--detector yolo --model a.cfg a.weights --input-size 320")
+    assert document["people_detector"][1]["arguments"].startswith("--detector yolo --model a.cfg a.weights --input-size 320 ")
+
+
 def test_every_filter_is_tried(benchmark, clips):
     result, document = benchmark("--trials", "people_ablation", "--data", clips)
     assert result.returncode == 0, result.stderr
@@ -103,7 +116,8 @@ def test_an_absent_clip_is_one_failed_row(benchmark, tmp_path):
     result, document = benchmark("--trials", "people", "--data", tmp_path, "--people-presets", "sitting_xyz",
                                  "--perturbations", "1", "--frames", "40")
     assert result.returncode == 1
-    assert [len(document[name]) for name in ("people_wait", "people_latest", "people_ablation", "people_false_boxes")] == [1] * 4
+    assert [len(document[name]) for name in ("people_wait", "people_latest", "people_detector", "people_ablation",
+                                             "people_false_boxes")] == [1] * 5
     assert document["people_latest"][0]["error"].endswith("bonn_crowd_dev: not there")
     # The rest ran.
     assert len(document["people_sitting"]) == 2 and document["people_walking"] == []

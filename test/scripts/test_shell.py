@@ -116,11 +116,16 @@ def test_unknown_options_are_refused(shell, name):
     assert process.stderr.count("\n") == 1 and "--frobnicate" in process.stderr
 
 
-def test_demo_goes_from_nothing_to_a_picture(shell, tmp_path):
+@pytest.mark.parametrize("network, options, detector", [
+    (False, [], "--boxes {output}/sequence/person_boxes.txt"), (True, [], "--detector yolo"),
+    (True, ["--exact-boxes"], "--boxes {output}/sequence/person_boxes.txt")])
+def test_demo_goes_from_nothing_to_a_picture(shell, tmp_path, network, options, detector):
     # A copy of the scripts, so that the demo's output does not land in the real tree.
     root = tmp_path / "root"
     root.mkdir()
     subprocess.run(["cp", "-r", SCRIPTS, root], check=True)
+    if network:
+        install(root / "models" / "yc.weights", "")
     walk, astray = ("".join(f"{i / 10} {scale * i / 10} {(i % 5) / 5} 0 0 0 0 1\n" for i in range(40))
                     for scale in (1.0, 1.2))
     install(root / "build/release/bin/simulate_tum",
@@ -129,20 +134,20 @@ def test_demo_goes_from_nothing_to_a_picture(shell, tmp_path):
     install(root / "build/release/bin/rgbd_tum", f"""#!/bin/bash
 echo "rgbd_tum $*" >> "$CALLS"
 mkdir -p "$5"
-if [[ " $* " == *" --boxes "* ]]; then cp "$3/groundtruth.txt" "$5/CameraTrajectory.txt"
+if [[ " $* " != *" --detector none "* ]]; then cp "$3/groundtruth.txt" "$5/CameraTrajectory.txt"
 else printf "{astray!s}" > "$5/CameraTrajectory.txt"; fi
 """)
     output = root / "demo_output"
     (output / "pictures").mkdir(parents=True)
     (output / "pictures" / "of_an_earlier_run.jpg").touch()
-    process, calls = shell(str(root / "scripts" / "demo.sh"), "--frames", "40", "--people", "5", "--no-install")
+    process, calls = shell(str(root / "scripts" / "demo.sh"), "--frames", "40", "--people", "5", "--no-install", *options)
     assert process.returncode == 0, process.stderr
     assert calls[1].endswith("--target simulate_tum rgbd_tum")
     assert calls[2].startswith("simulate_tum walking_")
     assert calls[2].endswith(f"{output}/sequence --frames 40 --noise --seed 1 --force --people 5")
     assert calls[3:] == [
         f"rgbd_tum - {output}/sequence/settings.yaml {output}/sequence --output {output}/filter --seed 1 "
-        f"--boxes {output}/sequence/person_boxes.txt --draw {output}/pictures",
+        f"{detector.format(output=output)} --draw {output}/pictures",
         f"rgbd_tum - {output}/sequence/settings.yaml {output}/sequence --output {output}/no_filter --seed 1 --detector none"]
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in process.stdout.splitlines() if "|" in line]
     assert rows[2][:3] == ["CP-SLAM", "40", "0.0000"]

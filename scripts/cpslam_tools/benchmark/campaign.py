@@ -12,6 +12,7 @@ TRIALS = {
     "paper": (paper.paper, paper_table.paper, paper.paper_count),
     "people_wait": (crowd.wait, crowd.wait_table, crowd.wait_count),
     "people_latest": (crowd.latest, crowd.latest_table, crowd.latest_count),
+    "people_detector": (crowd.detected, crowd.detected_table, crowd.detected_count),
     "people_ablation": (crowd.ablation, crowd.ablation_table, crowd.ablation_count),
     "people_walking": (walking.walking, walking.table, walking.count),
     "people_sitting": (sitting.sitting, sitting.table, sitting.count),

@@ -1,4 +1,5 @@
-"""The recorded crowd with its reference boxes: waiting for boxes, late boxes, and what each kind of filter is worth."""
+"""The recorded crowd with its reference boxes: waiting for boxes, late boxes, the detector's own boxes, and what each kind
+of filter is worth."""
 
 import statistics
 
@@ -17,6 +18,8 @@ STARTS = (0, 1, 2)
 WAIT = ("--boxes-policy", "wait")
 # variant: (rate in Hz, delay in s, aim of the ratio to waiting)
 LATE = {"6/s, 150 ms late": (6, 0.15, 1.2), "3/s, 300 ms late": (3, 0.3, 1.4), "2/s, 500 ms late": (2, 0.5, 2.0)}
+RECORDED, DETECTED = "recorded boxes", "detector"
+DETECTED_AIM = 1.15
 ABLATION = {
     "no filter": None,
     "whole boxes deleted": ("--people-filter", "boxes"),
@@ -55,6 +58,25 @@ def latest(plan):
 
 def latest_count(_):
     return (1 + len(LATE)) * len(STARTS)
+
+
+def detected(plan):
+    """The boxes of a network (--detector-arguments, else the bundled one) beside the recorded ones, from several first
+    frames."""
+    network = detectors.BUNDLED if plan.detector == detectors.NONE else plan.detector
+
+    def runs(clip):
+        for start in STARTS:
+            for name, detector in ((RECORDED, detectors.recorded_boxes(clip.boxes)), (DETECTED, network)):
+                result = run_on(plan, clip, "sequential", arguments=(*detector.arguments, *WAIT, "--start", str(start)))
+                yield {**result, "variant": name, "start": start}
+
+    for result in on_sequence(_clip(plan), runs):
+        yield {"variant": "-", "start": "-", **result}
+
+
+def detected_count(_):
+    return 2 * len(STARTS)
 
 
 def ablation(plan):
@@ -98,18 +120,28 @@ def wait_table(runs):
 
 
 def latest_table(runs):
+    aims = {name: aim for name, (_, _, aim) in LATE.items()}
+    return "### Crowd, boxes seldom and late (bonn_crowd_dev, sequential)\n\n" + _table_of_ratios(runs, aims, "wait")
+
+
+def detected_table(runs):
+    return "### Crowd, the detector's boxes (bonn_crowd_dev, sequential)\n\n" + \
+        _table_of_ratios(runs, {DETECTED: DETECTED_AIM}, RECORDED)
+
+
+def _table_of_ratios(runs, aims, reference):
+    """aims: {variant: highest ratio of its ATE to the reference's}."""
     def columns(name, group):
-        aim = LATE[name][2] if name in LATE else None
-        ratios = list(paired_ratios(runs, ("start",), name, "wait").values())
+        aim = aims.get(name)
+        ratios = list(paired_ratios(runs, ("start",), name, reference).values())
         if aim is None or not ratios or None in ratios:
             return ["-", "-" if aim is None else f"<= {aim}", "-" if aim is None else "NO"]
         reached = "yes" if _complete(group) and statistics.median(ratios) <= aim else "NO"
-        if identical(runs, ("start",), name, "wait") == len(ratios):
+        if identical(runs, ("start",), name, reference) == len(ratios):
             reached = "not measured"
         return [f"{statistics.median(ratios):.2f} ({min(ratios):.2f}-{max(ratios):.2f})", f"<= {aim}", reached]
 
-    return "### Crowd, boxes seldom and late (bonn_crowd_dev, sequential)\n\n" + \
-        _table(runs, "variant", ["ATE x wait", "aim", "reached"], columns, "wait") + _starts()
+    return _table(runs, "variant", [f"ATE x {reference}", "aim", "reached"], columns, reference) + _starts()
 
 
 def ablation_table(runs):

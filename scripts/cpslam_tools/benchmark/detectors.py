@@ -12,6 +12,8 @@ BOXES_FILE = "person_boxes.txt"
 Detector = collections.namedtuple("Detector", "label arguments")
 
 NONE = Detector("none", ("--detector", "none"))
+# The network that comes with CP-SLAM; a failed run where there is none.
+BUNDLED = Detector("yolo", ("--detector", "yolo"))
 
 
 def recorded_boxes(path):

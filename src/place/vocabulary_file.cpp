@@ -63,10 +63,7 @@ Header take_header(std::string_view& bytes) {
                      ", this program reads version " + std::to_string(kVersion) +
                      ": make it again with vocabulary_tool of this program");
   }
-<<<<<<< HEAD
-=======
   if (header.zero != 0) throw InputError("the vocabulary is damaged: its header is not as it should be");
->>>>>>> vocabulary
   if (header.n_nodes < 2)
     throw InputError("this is no vocabulary: it has " + std::to_string(header.n_nodes) + " nodes");
   const std::uint64_t expected = body_size(header);

@@ -19,6 +19,7 @@
 #include "cpslam/system.h"
 #include "detect/recording_detector.h"
 #include "io/atomic_file.h"
+#include "io/bundled_file.h"
 #include "io/person_boxes.h"
 #include "io/trajectory_error.h"
 #include "io/trajectory_io.h"
@@ -31,13 +32,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const std::string kBundledVocabulary = "Vocabulary/cpslam.voc";
+
 Settings effective_settings(const RgbdTumOptions& options) {
   Settings settings = load_settings(options.settings);
   settings.sequential = options.sequential;
   settings.realtime = options.realtime;
   settings.seed = options.seed;
   settings.loops.enabled = !options.no_loop;
-  if (options.vocabulary != "-") settings.vocabulary = options.vocabulary;
+  settings.vocabulary =
+      options.vocabulary == "-" ? find_bundled_file(kBundledVocabulary).value_or("") : options.vocabulary;
   apply(options.detector, settings);
   return settings;
 }
@@ -47,6 +51,13 @@ void note_missing_detector(const RgbdTumOptions& options) {
   if (!options.detector.without_network || options.quiet) return;
   std::fprintf(stderr, "note: people are not looked for: %s. --model CFG WEIGHTS names a network\n",
                no_bundled_detector_model_text().c_str());
+}
+
+void note_missing_vocabulary(const Settings& settings, const RgbdTumOptions& options) {
+  if (!settings.vocabulary.empty() || options.quiet) return;
+  std::fprintf(stderr,
+               "note: no place is recognised and no loop closed: %s. Name a vocabulary instead of -\n",
+               not_bundled_text(kBundledVocabulary).c_str());
 }
 
 std::vector<RgbdEntry> select_entries(const RgbdTumOptions& options) {
@@ -60,16 +71,6 @@ std::vector<RgbdEntry> select_entries(const RgbdTumOptions& options) {
   entries.erase(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(options.start));
   if (options.max_frames) entries.resize(std::min(entries.size(), *options.max_frames));
   return entries;
-}
-
-void check_vocabulary(const RgbdTumOptions& options) {
-  if (options.vocabulary != "-" && !fs::exists(options.vocabulary)) {
-    throw InputError(options.vocabulary + ": no such vocabulary; give - to go without");
-  }
-  if (!options.quiet) {
-    std::fprintf(stderr, "note: this version does not recognise places: no loops are closed%s\n",
-                 options.vocabulary == "-" ? "" : ", and the vocabulary is not read");
-  }
 }
 
 /// The settings' detector, wrapped to keep what it finds when that is to be saved.
@@ -148,7 +149,7 @@ int main_program(const RgbdTumOptions& options) {
   report.sequence = options.sequence;
   report.settings = effective_settings(options);
   if (options.print_settings) std::cout << to_yaml(report.settings) << std::flush;
-  check_vocabulary(options);
+  note_missing_vocabulary(report.settings, options);
   note_missing_detector(options);
   const std::vector<RgbdEntry> entries = select_entries(options);
   prepare_output_folder("--output", options.output);

@@ -24,8 +24,8 @@ void add_input_options(CLI::App& app, RgbdTumOptions& options) {
   const std::string group = "What to run on";
   app.add_option(
          "VOCABULARY", options.vocabulary,
-         "ORB vocabulary, or - for the bundled one. This version does not recognise places yet: the file is\n"
-         "accepted and not read")
+         "Words to recognise places by: our own format (vocabulary_tool) or an ORB vocabulary in text form;\n"
+         "- for the bundled one")
       ->required();
   app.add_option("SETTINGS", options.settings, "Camera and feature settings (ORB-SLAM2's format)")
       ->required();

@@ -10,6 +10,7 @@ namespace cpslam {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 void expect_counts_add_up(const nlohmann::json& stats) {
   std::size_t sum = 0;
@@ -119,18 +120,21 @@ TEST(TrackingRun, AssociationsGiveTheSameAsTheLists) {
   EXPECT_EQ(TemporaryFolder::content(office.result("CameraTrajectory.txt")), from_lists);
 }
 
-TEST(TrackingRun, AnOldVocabularyIsAcceptedWithANotice) {
+TEST(TrackingRun, TheVocabularyIsReadAndLoopsAreLookedFor) {
   const OfficeSequence office;
-  const std::string vocabulary = office.folder().write("ORBvoc.txt", "10 6 0 0\n0 0 1 2 3\n");
-  const ProgramResult with = run_rgbd_tum({vocabulary, office.settings(), office.path(), "--output",
+  const std::string broken = office.folder().write("ORBvoc.txt", "10 6 0 0\n0 0 1 2 3\n");
+  const ProgramResult with = run_rgbd_tum({broken, office.settings(), office.path(), "--output",
                                            office.output(), "--max-frames", "3", "--detector", "none"});
-  EXPECT_EQ(with.exit_code, 0);
-  EXPECT_EQ(count_lines(with.err, "note: "), 1U);
-  EXPECT_THAT(with.err, HasSubstr("vocabulary is not read"));
-  const ProgramResult without = office.track({"--max-frames", "3"});
+  EXPECT_EQ(with.exit_code, 2);
+  EXPECT_THAT(with.err, HasSubstr(broken));
+  const ProgramResult bundled = office.track({"--max-frames", "3"});
+  EXPECT_EQ(bundled.exit_code, 0);
+  EXPECT_THAT(bundled.out, HasSubstr("loops       0 closed"));
+  EXPECT_THAT(TemporaryFolder::content(office.result("stats.json")), HasSubstr("\"closed\": 0"));
+  const ProgramResult without = office.track({"--max-frames", "3", "--no-loop"});
   EXPECT_EQ(without.exit_code, 0);
-  EXPECT_EQ(count_lines(without.err, "note: "), 1U);
-  EXPECT_THAT(without.err, HasSubstr("does not recognise places"));
+  EXPECT_THAT(without.out, Not(HasSubstr("loops ")));
+  EXPECT_THAT(TemporaryFolder::content(office.result("stats.json")), HasSubstr("\"loops\": null"));
 }
 
 }  // namespace

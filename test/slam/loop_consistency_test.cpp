@@ -11,7 +11,7 @@ using Ids = std::vector<KeyFrameId>;
 
 class LoopConsistencyTest : public testing::Test {
  protected:
-  scene::RoundWalk walk{{.keyframes = 16}};
+  scene::RoundWalk walk{{.keyframes = 24}};
   LoopConsistency consistency{3};
   const Ids& ids = walk.keyframes;
 };
@@ -39,9 +39,9 @@ TEST_F(LoopConsistencyTest, AKeyframeWithoutCandidatesBreaksTheChain) {
 }
 
 TEST_F(LoopConsistencyTest, PlacesAreFollowedSideBySide) {
-  (void)consistency.update(walk.map, Ids{ids[2], ids[12]});
-  (void)consistency.update(walk.map, Ids{ids[12], ids[2]});
-  EXPECT_EQ(consistency.update(walk.map, Ids{ids[7], ids[2], ids[13]}), (Ids{ids[2], ids[13]}));
+  (void)consistency.update(walk.map, Ids{ids[2], ids[20]});
+  (void)consistency.update(walk.map, Ids{ids[20], ids[2]});
+  EXPECT_EQ(consistency.update(walk.map, Ids{ids[11], ids[2], ids[21]}), (Ids{ids[2], ids[21]}));
   consistency.reset();
   EXPECT_EQ(consistency.update(walk.map, Ids{ids[2]}), Ids{});
 }

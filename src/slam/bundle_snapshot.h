@@ -22,8 +22,7 @@ struct BundleSnapshot {
 class BundleSnapshotBuilder {
  public:
   /// min_disparity_sigma_px: see observe().
-  BundleSnapshotBuilder(const Rig& rig, const Map& map,
-                        double min_disparity_sigma_px = kMinDisparitySigmaPx);
+  BundleSnapshotBuilder(const Rig& rig, const Map& map, double min_disparity_sigma_px = kMinDisparitySigmaPx);
 
   /// The keyframe must exist and not have been added before.
   void add_keyframe(KeyFrameId id, bool fixed);

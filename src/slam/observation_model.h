@@ -7,9 +7,9 @@
 namespace cpslam {
 
 /// A corner mostly lies on an object's rim, where registration errors, bleeding depth edges and the two
-/// sensors' different shutters count far more than the noise of the depth sensor on a surface. So no disparity
-/// is believed to better than this, at the keypoint's own pyramid level; docs/benchmarks.md has the measurement
-/// behind it.
+/// sensors' different shutters count far more than the noise of the depth sensor on a surface. So no
+/// disparity is believed to better than this, at the keypoint's own pyramid level; docs/benchmarks.md has the
+/// measurement behind it.
 inline constexpr double kMinDisparitySigmaPx = 3.0;
 
 /// The keypoint as a measurement: pixel noise grows with the pyramid level; the virtual disparity's noise is

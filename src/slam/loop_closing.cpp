@@ -1,9 +1,10 @@
 #include "slam/loop_closing.h"
 
 #include <algorithm>
+#include <memory>
 #include <numbers>
 #include <shared_mutex>
-#include <utility>
+#include <string>
 
 #include "slam/loop_correction.h"
 

@@ -1,9 +1,7 @@
 #include "slam/loop_correction.h"
 
-#include <algorithm>
 #include <mutex>
 #include <shared_mutex>
-#include <utility>
 #include <vector>
 
 #include "slam/map_correction.h"

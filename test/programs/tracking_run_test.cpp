@@ -26,7 +26,6 @@ TEST(TrackingRun, WritesTheDocumentedFiles) {
   const OfficeSequence office;
   const ProgramResult result = office.track();
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("note: "));
   EXPECT_THAT(result.err, HasSubstr("100 %"));
   EXPECT_THAT(result.out, HasSubstr("12 tracked (100.0 %)"));
   EXPECT_THAT(result.out, HasSubstr("ATE"));

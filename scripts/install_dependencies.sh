@@ -19,35 +19,22 @@ readonly OS_RELEASE="${CPSLAM_OS_RELEASE:-/etc/os-release}"
 
 main() {
   local missing=()
+  mapfile -t missing < <(missing_packages "${PACKAGES[@]}")
   case "${1:-}" in
     "") ;;
     --missing)
-      find_missing
       ((${#missing[@]} == 0)) || printf '%s\n' "${missing[@]}"
       return
       ;;
     *) usage_error "unknown option '$1' (only --missing is known)" ;;
   esac
-  find_missing
   if ((${#missing[@]} == 0)); then
     say "All ${#PACKAGES[@]} Debian packages are there"
     return
   fi
   check_system
   say "Installing ${#missing[@]} packages: ${missing[*]}"
-  as_root apt-get update
-  as_root apt-get install --yes --no-install-recommends "${missing[@]}"
-}
-
-find_missing() {
-  local package
-  for package in "${PACKAGES[@]}"; do
-    is_installed "$package" || missing+=("$package")
-  done
-}
-
-is_installed() {
-  [[ "$(dpkg-query --show --showformat='${db:Status-Status}' "$1" 2>/dev/null || true)" == installed ]]
+  apt_install "${missing[@]}"
 }
 
 # Debian from 12 and Ubuntu from 24.04 on have every package under these names.
@@ -72,16 +59,6 @@ is_supported() {
     *) return 1 ;;
   esac
   [[ "$(printf '%s\n' "$least" "$version" | sort --version-sort | head -n 1)" == "$least" ]]
-}
-
-as_root() {
-  if ((EUID == 0)); then
-    env DEBIAN_FRONTEND=noninteractive "$@" >&2
-  elif command -v sudo >/dev/null; then
-    sudo env DEBIAN_FRONTEND=noninteractive "$@" >&2
-  else
-    usage_error "packages are missing and there is no sudo: run as root: apt-get install ${missing[*]}"
-  fi
 }
 
 main "$@"

@@ -32,3 +32,24 @@ build_preset() {
     cmake --build --preset "$preset" --parallel "$(build_jobs)" ${1:+--target "$@"}
   ) >&2
 }
+
+# missing_packages PACKAGE...: those of the Debian packages that are not installed, one per line.
+missing_packages() {
+  local package
+  for package in "$@"; do
+    [[ "$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)" == installed ]] ||
+      echo "$package"
+  done
+}
+
+# apt_install PACKAGE...: installs Debian packages, as root or through sudo.
+apt_install() {
+  local command=(env DEBIAN_FRONTEND=noninteractive apt-get)
+  if ((EUID != 0)); then
+    command -v sudo >/dev/null ||
+      usage_error "packages are missing and there is no sudo: run as root: apt-get install $*"
+    command=(sudo "${command[@]}")
+  fi
+  "${command[@]}" update >&2
+  "${command[@]}" install --yes --no-install-recommends "$@" >&2
+}

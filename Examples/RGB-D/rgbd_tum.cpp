@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "common/console_log.h"
@@ -32,7 +34,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kBundledVocabulary = "Vocabulary/cpslam.voc";
+std::string find_vocabulary(const std::string& name) {
+  if (name != "-") return name;
+  const std::string bundled = "Vocabulary/cpslam.voc";
+  if (std::optional<std::string> path = find_bundled_file(bundled)) return *path;
+  throw InputError("the bundled vocabulary is missing: " + not_bundled_text(bundled) +
+                   "; name another one instead of -");
+}
 
 Settings effective_settings(const RgbdTumOptions& options) {
   Settings settings = load_settings(options.settings);
@@ -40,8 +48,7 @@ Settings effective_settings(const RgbdTumOptions& options) {
   settings.realtime = options.realtime;
   settings.seed = options.seed;
   settings.loops.enabled = !options.no_loop;
-  settings.vocabulary =
-      options.vocabulary == "-" ? find_bundled_file(kBundledVocabulary).value_or("") : options.vocabulary;
+  settings.vocabulary = find_vocabulary(options.vocabulary);
   apply(options.detector, settings);
   return settings;
 }
@@ -51,13 +58,6 @@ void note_missing_detector(const RgbdTumOptions& options) {
   if (!options.detector.without_network || options.quiet) return;
   std::fprintf(stderr, "note: people are not looked for: %s. --model CFG WEIGHTS names a network\n",
                no_bundled_detector_model_text().c_str());
-}
-
-void note_missing_vocabulary(const Settings& settings, const RgbdTumOptions& options) {
-  if (!settings.vocabulary.empty() || options.quiet) return;
-  std::fprintf(stderr,
-               "note: no place is recognised and no loop closed: %s. Name a vocabulary instead of -\n",
-               not_bundled_text(kBundledVocabulary).c_str());
 }
 
 std::vector<RgbdEntry> select_entries(const RgbdTumOptions& options) {
@@ -149,7 +149,6 @@ int main_program(const RgbdTumOptions& options) {
   report.sequence = options.sequence;
   report.settings = effective_settings(options);
   if (options.print_settings) std::cout << to_yaml(report.settings) << std::flush;
-  note_missing_vocabulary(report.settings, options);
   note_missing_detector(options);
   const std::vector<RgbdEntry> entries = select_entries(options);
   prepare_output_folder("--output", options.output);

@@ -22,10 +22,9 @@ std::string check_positive_count(const std::string& text) {
 
 void add_input_options(CLI::App& app, RgbdTumOptions& options) {
   const std::string group = "What to run on";
-  app.add_option(
-         "VOCABULARY", options.vocabulary,
-         "Words to recognise places by: our own format (vocabulary_tool) or an ORB vocabulary in text form;\n"
-         "- for the bundled one")
+  app.add_option("VOCABULARY", options.vocabulary,
+                 "Vocabulary to recognise places with: ours, or a public ORB vocabulary (ORBvoc.txt);\n"
+                 "- for the bundled one")
       ->required();
   app.add_option("SETTINGS", options.settings, "Camera and feature settings (ORB-SLAM2's format)")
       ->required();

@@ -34,6 +34,7 @@ class Judge {
       : depth_m_(depth_m),
         tracks_(tracks),
         people_(depth_m.size(), std::uint8_t{0}),
+        guessed_(depth_m.size(), std::uint8_t{0}),
         people_m_(depth_m.size(), 0.0F) {
     for (const PersonTrack& track : tracks) {
       const bool walks = is_walking(track);
@@ -41,6 +42,7 @@ class Judge {
         const int cell = track.visible.cells[i];
         const float depth = track.visible.depth_m[i];
         enter(cell, depth, walks);
+        if (!track.shown) guessed_(cell) = 1;
         if (!walks || depth_lag_s == 0.0) continue;
         const Eigen::Vector3f gone_on =
             camera.point(cell, depth) + track.velocity_m_per_s * static_cast<float>(depth_lag_s);
@@ -84,15 +86,39 @@ class Judge {
     const auto square = [&](int reach) {
       return cv::Rect(cell.x - reach, cell.y - reach, 2 * reach + 1, 2 * reach + 1) & grid;
     };
-    if (cv::countNonZero(people_(square(kNoDepthRimCells))) > 0) return true;
+    const cv::Rect beside = square(kNoDepthRimCells);
+    if (cv::countNonZero(people_(beside)) > 0)
+      return cv::countNonZero(guessed_(beside)) > 0 || !in_shadow(cell);
     if (cv::countNonZero(depth_m_(square(kNoDepthReachCells))) > 0) return false;
     return std::any_of(tracks_.begin(), tracks_.end(),
                        [&k](const PersonTrack& t) { return contains(t.box, k); });
   }
 
+  enum class Reading { kNone, kPerson, kOther };
+
+  /// The first that is met on the way from a cell.
+  [[nodiscard]] Reading first_reading(cv::Point cell, cv::Point step) const {
+    for (const cv::Rect grid({}, people_.size()); grid.contains(cell); cell += step) {
+      if (people_(cell) != kNobody) return Reading::kPerson;
+      if (depth_m_(cell) > 0.0F) return Reading::kOther;
+    }
+    return Reading::kNone;
+  }
+
+  /// Whether a cell without depth lies between a person and what is behind him. Projector and camera are side
+  /// by side, and so are a person and his shadow; hair has no depth either, but the person goes on below.
+  [[nodiscard]] bool in_shadow(cv::Point cell) const {
+    const bool left = first_reading(cell, {-1, 0}) == Reading::kPerson;
+    const bool right = first_reading(cell, {1, 0}) == Reading::kPerson;
+    const bool inside =
+        first_reading(cell, {0, -1}) == Reading::kPerson && first_reading(cell, {0, 1}) == Reading::kPerson;
+    return left != right && !inside;
+  }
+
   const cv::Mat1f& depth_m_;
   const std::vector<PersonTrack>& tracks_;
-  cv::Mat1b people_;  // kNobody, kStanding or kWalking
+  cv::Mat1b people_;   // kNobody, kStanding or kWalking
+  cv::Mat1b guessed_;  // non-zero: carried there, not shown by this frame's boxes
   cv::Mat1f people_m_;
 };
 

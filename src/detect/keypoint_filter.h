@@ -15,7 +15,8 @@ namespace cpslam {
 
 /// Which keypoints are on people: 1 for those, 0 for the others; parallel to the keypoints. A keypoint is on
 /// a person when it lies on his surface, rim included, at his depth. One without depth is when his surface is
-/// next to it, or when it is in his box and nothing around it has a depth either.
+/// next to it, or when it is in his box and nothing around it has a depth either; but not where the sensor
+/// sees nothing because he throws his shadow there, unless his outline is a guess.
 [[nodiscard]] std::vector<std::uint8_t> find_keypoints_on_people(const GridCamera& camera,
                                                                  const cv::Mat1f& depth_m,
                                                                  const std::vector<PersonTrack>& tracks,

@@ -35,7 +35,7 @@ GridSurface flood(const cv::Mat1f& depth_m, int seed, cv::Mat1b& recent) {
 }  // namespace
 
 std::vector<GridSurface> find_moving_blobs(const cv::Mat1f& depth_m, const cv::Mat1b& still_age,
-                                           const cv::Mat1b& people) {
+                                           const cv::Mat1b& people, int rim_cells) {
   // 2: has arrived; 1: may be a part of it, 0: taken or none of it
   cv::Mat1b recent(depth_m.size(), std::uint8_t{0});
   const auto n_cells = static_cast<int>(depth_m.total());
@@ -44,7 +44,7 @@ std::vector<GridSurface> find_moving_blobs(const cv::Mat1f& depth_m, const cv::M
     recent(cell) = still_age(cell) < StillSurface::kUnknownAge ? 2 : 1;
   }
   cv::Mat1b cores;
-  cv::erode(recent == 2, cores, cv::Mat());
+  cv::erode(recent == 2, cores, cv::Mat(), {-1, -1}, rim_cells);
   std::vector<GridSurface> blobs;
   for (int seed = 0; seed < n_cells; ++seed) {
     if (cores(seed) == 0 || recent(seed) == 0) continue;

@@ -8,9 +8,10 @@
 namespace cpslam {
 
 /// Surfaces that have come before what stood still, without anybody having detected a person there yet:
-/// connected cells that have just arrived, where nobody is known (people: paint_people). Only what is some
-/// cells wide and large enough to be somebody; the rims of furniture flicker.
+/// connected cells that have just arrived, where nobody is known (people: paint_people). Only what is large
+/// enough to be somebody, and somewhere wider than two rims of rim_cells: those of furniture flicker, the
+/// more the quicker the camera moves.
 [[nodiscard]] std::vector<GridSurface> find_moving_blobs(const cv::Mat1f& depth_m, const cv::Mat1b& still_age,
-                                                         const cv::Mat1b& people);
+                                                         const cv::Mat1b& people, int rim_cells);
 
 }  // namespace cpslam

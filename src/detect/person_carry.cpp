@@ -14,6 +14,7 @@ namespace {
 // Before and behind his middle, where nothing has arrived: no walking over the floor.
 constexpr float kBodyM = 0.35F;
 constexpr int kGrowthCells = 3;        // an outline moves no further between two frames, once carried
+constexpr int kLateGrowthCells = 12;   // a torso comes into view beside the legs that are known
 constexpr float kFoundShare = 0.3F;    // of the predicted surface: less, and something hides the person
 constexpr float kDepthShiftM = 0.02F;  // uncertainty of the median between found and predicted depths
 constexpr std::size_t kMinCells = 6;
@@ -82,7 +83,8 @@ class Finder {
   Finder(const FrameStep& step, const Prediction& prediction)
       : step_(step), prediction_(prediction), taken_(step.depth_m.size(), std::uint8_t{0}) {}
 
-  GridSurface find(std::uint8_t index, const GridSurface& predicted, int recent_age) {
+  /// late: no box has shown him in the frame before.
+  GridSurface find(std::uint8_t index, const GridSurface& predicted, int recent_age, bool late) {
     found_.clear();
     recent_age_ = recent_age;
     for (const int cell : predicted.cells) {
@@ -91,9 +93,9 @@ class Finder {
     n_agreeing_ = found_.size();
     mean_m_ = mean_depth_m(found_);
     std::size_t begin = 0;
-    for (int round = 0; round < kGrowthCells; ++round) {
+    for (int round = 0; round < (late ? kLateGrowthCells : kGrowthCells); ++round) {
       const std::size_t end = found_.size();
-      for (std::size_t i = begin; i < end; ++i) grow_from(found_.cells[i], index);
+      for (std::size_t i = begin; i < end; ++i) grow_from(found_.cells[i], index, round < kGrowthCells);
       begin = end;
     }
     return found_;
@@ -107,14 +109,19 @@ class Finder {
     if (is_still(cell)) return false;
     return std::abs(depth_m - prediction_.person_m(cell)) < agreement_m(depth_m, step_.dt_s);
   }
-  [[nodiscard]] bool is_still(int cell) const { return step_.still_age(cell) >= StillSurface::kStillAge; }
-  [[nodiscard]] bool is_recent(int cell) const { return step_.still_age(cell) <= recent_age_; }
-  [[nodiscard]] bool has_arrived(int cell) const { return step_.still_age(cell) < StillSurface::kUnknownAge; }
+  [[nodiscard]] bool is_still(int cell) const {
+    return step_.still.free_age(cell) >= StillSurface::kStillAge;
+  }
+  [[nodiscard]] bool is_recent(int cell) const { return step_.still.free_age(cell) <= recent_age_; }
+  [[nodiscard]] bool has_arrived(int cell) const {
+    return step_.still.free_age(cell) < StillSurface::kUnknownAge;
+  }
   void take(int cell) {
     taken_(cell) = 1;
     found_.add(cell, step_.depth_m(cell));
   }
-  void grow_from(int cell, std::uint8_t index) {
+  /// anywhere: also where the camera sees what it did not see before, not only where something has changed.
+  void grow_from(int cell, std::uint8_t index, bool anywhere) {
     const int columns = step_.depth_m.cols;
     for (const cv::Point& next : neighbours({cell % columns, cell / columns})) {
       if (!cv::Rect({}, step_.depth_m.size()).contains(next) || taken_(next) != 0) continue;
@@ -125,6 +132,7 @@ class Finder {
         continue;
       const std::uint8_t other = prediction_.person(next);
       if ((other != 0 && other != index) || !is_recent(there)) continue;
+      if (!anywhere && step_.still.changed(there) == 0) continue;
       if (!has_arrived(there) && std::abs(depth_m - mean_m_) > kBodyM) continue;
       take(there);
     }
@@ -219,7 +227,9 @@ void carry_people(const GridCamera& camera, const FrameStep& step, std::vector<P
   for (const std::size_t t : nearest_first) {
     const int recent_age =
         std::max<int>(StillSurface::kRecentAge, passing_frames(tracks[t], std::max(step.dt_s, 1e-3)));
-    GridSurface found = finder.find(static_cast<std::uint8_t>(t + 1), moved[t], recent_age);
+    const bool late = !tracks[t].shown;
+    tracks[t].shown = false;
+    GridSurface found = finder.find(static_cast<std::uint8_t>(t + 1), moved[t], recent_age, late);
     settle(step, moved[t], std::move(found), finder.n_agreeing(), prediction, tracks[t]);
   }
 }

@@ -5,16 +5,17 @@
 
 #include "detect/grid_camera.h"
 #include "detect/person_track.h"
+#include "detect/still_surface.h"
 #include "geometry/se3.h"
 
 namespace cpslam {
 
 /// From one frame to the next.
 struct FrameStep {
-  const cv::Mat1f& depth_m;    ///< the depth grid
-  const cv::Mat1b& still_age;  ///< StillSurface::free_age in this frame
-  SE3 this_from_previous;      ///< the camera's motion
-  double time_s = 0.0;         ///< of this frame
+  const cv::Mat1f& depth_m;   ///< the depth grid
+  const StillSurface& still;  ///< in this frame
+  SE3 this_from_previous;     ///< the camera's motion
+  double time_s = 0.0;        ///< of this frame
   double dt_s = 0.0;
 };
 

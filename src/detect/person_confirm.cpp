@@ -36,29 +36,38 @@ float box_overlap(const PersonBox& a, const PersonBox& b) {
   return static_cast<float>(common / (area(a) + area(b) - common));
 }
 
-/// Who is expected in each box, judged by the boxes alone.
-std::vector<KnownBox> recognise(std::span<const PersonBox> boxes, const std::vector<PersonTrack>& tracks) {
-  std::vector<KnownBox> known;
-  for (const PersonBox& box : boxes) {
-    KnownBox found{box};
-    float best = kMinOverlap;
-    for (const PersonTrack& track : tracks) {
-      const float overlap = box_overlap(box, track.box);
-      if (overlap <= best) continue;
-      best = overlap;
-      found.number = track.number;
-      found.moves = is_walking(track);
-    }
-    known.push_back(found);
-  }
-  return known;
-}
-
 struct Pair {
   float overlap;
   std::size_t box;
   std::size_t track;
 };
+
+void put_best_first(std::vector<Pair>& pairs) {
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Pair& a, const Pair& b) { return a.overlap > b.overlap; });
+}
+
+/// Who is expected in each box, judged by the boxes alone; nobody in two of them.
+std::vector<KnownBox> recognise(std::span<const PersonBox> boxes, const std::vector<PersonTrack>& tracks) {
+  std::vector<KnownBox> known(boxes.size());
+  std::vector<Pair> pairs;
+  for (std::size_t b = 0; b < boxes.size(); ++b) {
+    known[b].box = boxes[b];
+    for (std::size_t t = 0; t < tracks.size(); ++t) {
+      const float overlap = box_overlap(boxes[b], tracks[t].box);
+      if (overlap > kMinOverlap) pairs.push_back({overlap, b, t});
+    }
+  }
+  put_best_first(pairs);
+  std::vector<bool> track_used(tracks.size(), false);
+  for (const Pair& pair : pairs) {
+    if (known[pair.box].number != 0 || track_used[pair.track]) continue;
+    track_used[pair.track] = true;
+    known[pair.box].number = tracks[pair.track].number;
+    known[pair.box].moves = is_walking(tracks[pair.track]);
+  }
+  return known;
+}
 
 /// Boxes and people that may belong together, best first.
 std::vector<Pair> find_pairs(std::span<const PersonBox> boxes, const std::vector<PersonFit>& fits,
@@ -76,8 +85,7 @@ std::vector<Pair> find_pairs(std::span<const PersonBox> boxes, const std::vector
       if (std::max(of_surface, of_box) >= kMinOverlap) pairs.push_back({of_surface + 0.5F * of_box, b, t});
     }
   }
-  std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const Pair& a, const Pair& b) { return a.overlap > b.overlap; });
+  put_best_first(pairs);
   return pairs;
 }
 
@@ -130,6 +138,7 @@ void confirm(const GridCamera& camera, const PersonBox& box, const PersonFit& fi
   track.confirmed_s = time_s;
   ++track.confirmations;
   track.misses = 0;
+  track.shown = true;
   if (fit.cells.size() < kMinFitCells) return;
   cv::Mat1b fitted(depth_m.size(), std::uint8_t{0});
   for (const int cell : fit.cells) fitted(cell) = 1;

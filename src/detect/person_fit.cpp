@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <utility>
 
 #include "detect/background_planes.h"
 #include "detect/depth_grid.h"
@@ -58,6 +60,7 @@ class Fitter {
       if (!candidate.model.valid() || (share < kMinShare && i > 0)) break;
       GrownSurface surface = growth_.grow(candidate.model, area, prior, background, known_box);
       candidate.cells = std::move(surface.cells);
+      candidate.front = std::move(surface.front);
       candidate.match = outline_match(candidate.cells, depth_m_.cols, area) *
                         std::max(0.0F, 1.0F - kLeakCost * surface.leak);
       const float known = share_of(candidate.cells, [&](int cell) {
@@ -79,8 +82,22 @@ class Fitter {
     return best;
   }
 
-  void take(const std::vector<int>& cells) {
-    for (const int cell : cells) taken_(cell) = 1;
+  /// What is in front of him stays free: another box may show whose it is.
+  void take(const PersonFit& fit) {
+    std::vector<int> body;
+    std::set_difference(fit.cells.begin(), fit.cells.end(), fit.front.begin(), fit.front.end(),
+                        std::back_inserter(body));
+    for (const int cell : body) taken_(cell) = 1;
+  }
+  /// Takes from somebody what is in front of him and turned out to be another one's.
+  void give_up_front(PersonFit& fit) const {
+    std::vector<int> others;
+    std::copy_if(fit.front.begin(), fit.front.end(), std::back_inserter(others),
+                 [this](int cell) { return taken_(cell) != 0; });
+    std::vector<int> left;
+    std::set_difference(fit.cells.begin(), fit.cells.end(), others.begin(), others.end(),
+                        std::back_inserter(left));
+    fit.cells = std::move(left);
   }
   [[nodiscard]] float taken_share(const std::vector<int>& cells) const {
     return share_of(cells, [this](int cell) { return taken_(cell) != 0; });
@@ -169,8 +186,9 @@ std::vector<PersonFit> fit_people(const GridCamera& camera, const SceneEvidence&
   for (const std::size_t i : surest_first) {
     // A box that shows mostly a person who was found before, in front of its own.
     if (fitter.taken_share(fits[i].cells) > kOverlapShare) fits[i] = fitter.fit(boxes[i]);
-    fitter.take(fits[i].cells);
+    fitter.take(fits[i]);
   }
+  for (PersonFit& fit : fits) fitter.give_up_front(fit);
   return fits;
 }
 

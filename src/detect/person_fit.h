@@ -30,6 +30,7 @@ struct DepthKeypoint {
 struct PersonFit {
   SdfModel model;          ///< invalid: the box holds no depth
   std::vector<int> cells;  ///< of the depth grid, ascending
+  std::vector<int> front;  ///< GrownSurface::front
   float match = 0.0F;      ///< how well the surface ends where the box ends, 0 to 1
 };
 

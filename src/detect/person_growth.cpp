@@ -16,6 +16,12 @@ constexpr float kMinPieceShare = 0.2F;  // of the largest piece
 constexpr float kMovingShare = 0.4F;    // of cells that have just arrived: then a piece moves
 constexpr float kWalkingShare = 0.2F;   // the same of a whole person, whose inside seems to stand still
 constexpr std::size_t kMinMovingCells = 4;
+constexpr float kNearerM = 0.3F;      // than the body: an arm that reaches out to the camera,
+constexpr float kMaxArmShare = 0.3F;  // unless it is as large as somebody else, by the body's cells
+constexpr std::size_t kMinLimbCells = 6;
+constexpr float kMaxLimbShare = 0.2F;  // of the body's cells
+constexpr float kLimbM = 0.7F;         // before or behind the body
+constexpr float kYoungShare = 0.8F;    // of a limb's cells
 constexpr float kMaxPieceLeak = 0.5F;  // cells that go on outside the box, by the root of all
 constexpr float kInlierStepM = 0.1F;   // more between two inliers
 constexpr int kMarginCells = 1;        // that a person may reach over his box
@@ -61,22 +67,38 @@ GrownSurface PersonGrowth::grow(const SdfModel& model, const cv::Rect& box_cells
     leaks += count_leaks(pieces[i]);
     surface.cells.insert(surface.cells.end(), pieces[i].begin(), pieces[i].end());
   }
-  add_moving(box_cells, static_cast<int>(pieces.size()) + 1, surface);
+  add_limbs(box_cells, static_cast<int>(pieces.size()) + 1, he_moves, surface);
   put_in_order(surface.cells);
+  std::sort(surface.front.begin(), surface.front.end());
   surface.leak = static_cast<float>(leaks) / static_cast<float>(box_cells.width + box_cells.height);
   return surface;
 }
 
-void PersonGrowth::add_moving(const cv::Rect& box_cells, int piece_number, GrownSurface& surface) {
+void PersonGrowth::add_limbs(const cv::Rect& box_cells, int piece_number, bool he_moves,
+                             GrownSurface& surface) {
+  const std::size_t body_cells = surface.cells.size();
   front_m_ = 0.0F;
   for (int y = box_cells.y; y < box_cells.br().y; ++y) {
     for (int x = box_cells.x; x < box_cells.br().x; ++x) {
-      const bool arrived = scene_.still.age(y, x) < StillSurface::kUnknownAge;
-      if (!arrived || piece_(y, x) != 0 || !in_band(depth_m_(y, x)) || !is_free(x, y)) continue;
+      const bool young = scene_.still.age(y, x) < StillSurface::kStillAge;
+      if (!young || piece_(y, x) != 0 || !in_band(depth_m_(y, x)) || !is_free(x, y)) continue;
       const std::vector<int> piece = flood(y * depth_m_.cols + x, piece_number++);
-      if (moves(piece)) surface.cells.insert(surface.cells.end(), piece.begin(), piece.end());
+      const float depth_m = mean_depth_m(piece);
+      const bool in_front = depth_m < model_.mean_m - kNearerM;
+      const bool as_large = static_cast<float>(piece.size()) > kMaxArmShare * static_cast<float>(body_cells);
+      if (!(moves(piece) && !(in_front && as_large)) && !(he_moves && is_limb(piece, depth_m, body_cells)))
+        continue;
+      surface.cells.insert(surface.cells.end(), piece.begin(), piece.end());
+      if (in_front) surface.front.insert(surface.front.end(), piece.begin(), piece.end());
     }
   }
+}
+
+bool PersonGrowth::is_limb(const std::vector<int>& piece, float depth_m, std::size_t body_cells) const {
+  return piece.size() >= kMinLimbCells &&
+         static_cast<float>(piece.size()) < kMaxLimbShare * static_cast<float>(body_cells) &&
+         std::abs(depth_m - model_.mean_m) < kLimbM && !leaks_much(piece) &&
+         younger_share(piece, StillSurface::kStillAge) > kYoungShare;
 }
 
 void PersonGrowth::put_in_order(std::vector<int>& cells) {
@@ -90,8 +112,18 @@ void PersonGrowth::put_in_order(std::vector<int>& cells) {
   }
 }
 
+float PersonGrowth::younger_share(const std::vector<int>& cells, std::uint8_t age) const {
+  return share_of(cells, [&](int cell) { return scene_.still.age(cell) < age; });
+}
+
+float PersonGrowth::mean_depth_m(const std::vector<int>& cells) const {
+  float sum = 0.0F;
+  for (const int cell : cells) sum += depth_m_(cell);
+  return sum / static_cast<float>(cells.size());
+}
+
 float PersonGrowth::arrived_share(const std::vector<int>& cells) const {
-  return share_of(cells, [this](int cell) { return scene_.still.age(cell) < StillSurface::kUnknownAge; });
+  return younger_share(cells, StillSurface::kUnknownAge);
 }
 
 bool PersonGrowth::moves(const std::vector<int>& piece) const {

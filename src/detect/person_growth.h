@@ -14,6 +14,9 @@ namespace cpslam {
 /// what lies outside the box.
 struct GrownSurface {
   std::vector<int> cells;
+  /// Those of the cells that are nearer and not connected with the others, ascending: an arm that reaches
+  /// out, or somebody else.
+  std::vector<int> front;
   float leak = 0.0F;  ///< cells that go on outside, by half the box's perimeter
 };
 
@@ -25,21 +28,24 @@ class PersonGrowth {
 
   /// The connected pieces inside the box that hold inliers of the model: the largest, and others that are not
   /// small beside it and end inside the box (legs below a table), or have just arrived there (an arm, the
-  /// rear leg). Cells are connected when they lie side by side and have no step in depth, or a small one and
-  /// both are inliers (an arm in front of a torso). A gap without readings, the shadow of that arm, is
-  /// jumped. What lies on the background planes is not the person's,
-  /// nor is, when he moves, what stands still. known: what is
-  /// known of him.
+  /// rear leg), or, when he moves, are the size of a limb and have not been there for long. Cells are
+  /// connected when they lie side by side and have no step in depth, or a small one and both are inliers (an
+  /// arm in front of a torso). A gap without readings, the shadow of that arm, is jumped. What lies on the
+  /// background planes is not the person's, nor is, when he moves, what stands still. known: what is known of
+  /// him.
   [[nodiscard]] GrownSurface grow(const SdfModel& model, const cv::Rect& box_cells, const PlacePrior& prior,
                                   const std::vector<GridPlane>& background, const KnownBox& known);
 
  private:
-  void add_moving(const cv::Rect& box_cells, int number, GrownSurface& surface);
+  void add_limbs(const cv::Rect& box_cells, int number, bool he_moves, GrownSurface& surface);
+  [[nodiscard]] bool is_limb(const std::vector<int>& piece, float depth_m, std::size_t body_cells) const;
   /// What std::sort does, but quicker, as the cells lie close together.
   void put_in_order(std::vector<int>& cells);
   std::vector<int> flood(int seed, int number);
   void visit_neighbour(int from, int dx, int dy, int number, std::vector<int>& cells);
   [[nodiscard]] bool is_free(int x, int y) const;
+  [[nodiscard]] float younger_share(const std::vector<int>& cells, std::uint8_t age) const;
+  [[nodiscard]] float mean_depth_m(const std::vector<int>& cells) const;
   [[nodiscard]] float arrived_share(const std::vector<int>& cells) const;
   [[nodiscard]] bool moves(const std::vector<int>& piece) const;
   [[nodiscard]] bool was_his(const std::vector<int>& piece) const;

@@ -36,6 +36,7 @@ struct PersonTrack {
   PersonBox box;             ///< the last detection's, carried along
   double confirmed_s = 0.0;  ///< stamp of the last image in which he was detected
   double seen_s = 0.0;       ///< stamp of the last frame in which his surface was found again
+  bool shown = false;        ///< by the boxes of this very frame
   int confirmations = 0;
   int misses = 0;  ///< detections without him since
 };

@@ -10,7 +10,9 @@
 namespace cpslam {
 namespace {
 
-constexpr double kMostImageMotionPx = 5.0;
+constexpr double kMostImageMotionPx = 40.0;
+// Rims that a wrong motion, the shutter and the depth image's own instant let seem to arrive.
+constexpr double kMotionPxPerRimCell = 5.0;
 
 /// How far the image of something 2 m away moves, at most.
 double image_motion_px(const GridCamera& camera, const SE3& motion) {
@@ -81,12 +83,13 @@ void PersonTracks::settle(std::size_t index) {
   FrameState& state = frames_[index];
   if (index > 0) drop_what_stays(state.still, state.time_s - frames_[index - 1].time_s, state.tracks);
   const cv::Size size = state.depth_m.size();
-  // With a wrong motion everything seems to move, and with a quick one what the motion's error, the shutter
-  // and the depth image's own instant leave over.
-  if (state.pose_known && image_motion_px(camera_, state.this_from_previous) < kMostImageMotionPx) {
+  const double motion_px = image_motion_px(camera_, state.this_from_previous);
+  // With a wrong motion everything seems to move.
+  if (state.pose_known && motion_px < kMostImageMotionPx) {
+    const int rim_cells = 1 + static_cast<int>(motion_px / kMotionPxPerRimCell);
     const cv::Mat1b people = paint_people(state.tracks, size);
-    add_blobs(state.depth_m, find_moving_blobs(state.depth_m, state.still.age, people), state.time_s,
-              state.tracks);
+    add_blobs(state.depth_m, find_moving_blobs(state.depth_m, state.still.age, people, rim_cells),
+              state.time_s, state.tracks);
   }
   state.still.claim(paint_people(state.tracks, size));
 }
@@ -97,10 +100,10 @@ void PersonTracks::carry_into(std::size_t index) {
   if (index > 0) {
     const FrameState& previous = frames_[index - 1];
     state.carried = previous.tracks;
-    carry_people(camera_,
-                 {state.depth_m, state.still.free_age, state.this_from_previous, state.time_s,
-                  state.time_s - previous.time_s},
-                 state.carried);
+    carry_people(
+        camera_,
+        {state.depth_m, state.still, state.this_from_previous, state.time_s, state.time_s - previous.time_s},
+        state.carried);
     forget_people(state.time_s, state.still.age, state.carried);
   }
   state.tracks = state.carried;

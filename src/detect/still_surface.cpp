@@ -32,6 +32,11 @@ std::uint8_t age_beside(const StillSurface& expected, cv::Point at, float read_m
   return 0;
 }
 
+StillSurface unknown(const cv::Mat1f& depth_m) {
+  const cv::Mat1b age(depth_m.size(), StillSurface::kUnknownAge);
+  return {depth_m, age, age.clone(), cv::Mat1b(depth_m.size(), std::uint8_t{0})};
+}
+
 }  // namespace
 
 float still_tolerance_m(float depth_m) {
@@ -39,7 +44,7 @@ float still_tolerance_m(float depth_m) {
 }
 
 StillSurface StillSurface::begin(const cv::Mat1f& depth_m) {
-  return {depth_m, cv::Mat1b(depth_m.size(), kUnknownAge), cv::Mat1b(depth_m.size(), kUnknownAge)};
+  return unknown(depth_m);
 }
 
 void StillSurface::claim(const cv::Mat1b& people) {
@@ -49,7 +54,7 @@ void StillSurface::claim(const cv::Mat1b& people) {
 StillSurface StillSurface::move(const GridCamera& camera, const SE3& next_from_this) const {
   const FloatTransform next_from(next_from_this);
   const cv::Size size = depth_m.size();
-  StillSurface moved{cv::Mat1f(size, 0.0F), cv::Mat1b(size, kUnknownAge), cv::Mat1b(size, kUnknownAge)};
+  StillSurface moved = unknown(cv::Mat1f(size, 0.0F));
   const float* from_m = depth_m[0];
   float* to_m = moved.depth_m[0];
   for (int cell = 0; cell < camera.n_cells(); ++cell) {
@@ -60,6 +65,7 @@ StillSurface StillSurface::move(const GridCamera& camera, const SE3& next_from_t
     to_m[there] = point.z();
     moved.age[0][there] = age[0][cell];
     moved.free_age[0][there] = free_age[0][cell];
+    moved.changed[0][there] = changed[0][cell];
   }
   return moved;
 }
@@ -67,7 +73,8 @@ StillSurface StillSurface::move(const GridCamera& camera, const SE3& next_from_t
 StillSurface StillSurface::carry(const GridCamera& camera, const cv::Mat1f& next_depth_m,
                                  const SE3& next_from_this) const {
   const StillSurface expected = move(camera, next_from_this);
-  StillSurface next{expected.depth_m.clone(), expected.age.clone(), expected.free_age.clone()};
+  StillSurface next{expected.depth_m.clone(), expected.age.clone(), expected.free_age.clone(),
+                    expected.changed.clone()};
   const float* expected_m = expected.depth_m[0];
   float* known_m = next.depth_m[0];
   std::uint8_t* next_age = next.age[0];
@@ -86,6 +93,7 @@ StillSurface StillSurface::carry(const GridCamera& camera, const cv::Mat1f& next
     const bool arrived = expected_m[cell] > 0.0F && nearer_m > kArrivalM;
     next_age[cell] = beside > 0 ? beside : (arrived ? std::uint8_t{0} : kUnknownAge);
     next_free_age[cell] = next_age[cell];
+    next.changed[0][cell] = beside == 0 && expected_m[cell] > 0.0F ? 1 : 0;
     known_m[cell] = read_m;
   }
   return next;

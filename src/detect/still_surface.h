@@ -15,6 +15,7 @@ struct StillSurface {
   cv::Mat1b age;  ///< frames for which it has been found where the camera's motion puts it; up to 250
   /// The same, but begun anew while it belongs to somebody: a torso that passes by looks still.
   cv::Mat1b free_age;
+  cv::Mat1b changed;  ///< non-zero where it came into view, since something arrived or went away there
 
   /// Nothing known yet.
   static StillSurface begin(const cv::Mat1f& depth_m);

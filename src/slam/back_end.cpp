@@ -127,7 +127,6 @@ void BackEnd::map_keyframe(KeyFrameId keyframe) {
 }
 
 void BackEnd::look_for_loop(KeyFrameId keyframe) {
-  loops_->remember(keyframe);
   const std::optional<VerifiedLoop> loop = loops_->find(keyframe);
   if (!loop) return;
   if (full_bundle_thread_) {

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "map/map.h"
 #include "slam/frame.h"
 #include "slam/local_map.h"
+#include "slam/places.h"
 #include "slam/rig.h"
 #include "util/random.h"
 #include "util/stage_timer.h"
@@ -26,15 +26,15 @@ struct PlacementPrior {
   const Frame& last;  ///< the latest frame with a pose
   int last_inliers = 0;
   SE3 predicted_cam_from_world;
-  std::size_t frames_without_pose = 0;
 };
 
 /// Finds the pose of a frame: by the motion so far, or, when that fails or convinces little, by the
 /// appearance of known keyframes. Owns the local map. One thread; takes shared locks of the map.
 class FramePlacer {
  public:
-  FramePlacer(const Rig& rig, const Map& map, StageTimer& timer)
-      : rig_(rig), map_(map), timer_(timer), random_(rig.settings.seed) {}
+  /// places: null when places are not recognised.
+  FramePlacer(const Rig& rig, const Map& map, const Places* places, StageTimer& timer)
+      : rig_(rig), map_(map), places_(places), timer_(timer), random_(rig.settings.seed) {}
 
   /// On success the frame has a pose and its matches; nothing when fewer than Tracking.minInliers points
   /// agree.
@@ -45,11 +45,19 @@ class FramePlacer {
 
  private:
   std::optional<Placement> by_motion(const PlacementPrior& prior, Frame& frame);
-  std::optional<Placement> by_appearance(const PlacementPrior& prior, Frame& frame);
-  std::optional<Placement> in_local_map(float window, Frame& frame);
+  /// A frame placed where it looks like, and the map around.
+  struct Recognised {
+    Frame frame;
+    Placement placement;
+    LocalMap local_map;
+  };
+  std::optional<Recognised> by_appearance(const Frame& frame);
+  std::optional<Recognised> by_keyframe(KeyFrameId keyframe, const ImageWords& words, const Frame& frame);
+  std::optional<Placement> in_local_map(float window, LocalMap& local_map, Frame& frame);
 
   const Rig& rig_;
   const Map& map_;
+  const Places* places_;
   StageTimer& timer_;
   Random random_;
   LocalMap local_map_;

@@ -8,7 +8,12 @@
 #include "slam/point_fusion.h"
 
 namespace cpslam {
+
 void LocalMapping::process(KeyFrameId keyframe, const std::atomic<bool>& abort) {
+  if (places_ != nullptr) {
+    const auto scope = timer_.time("map: words");
+    places_->remember(map_, keyframe);
+  }
   {
     const auto scope = timer_.time("map: recent points");
     {

@@ -16,7 +16,7 @@ namespace cpslam {
 /// the map's lock only to copy and to write back.
 class LocalMapping {
  public:
-  /// places: forgets the keyframes that are freed; may be null.
+  /// places: remembers new keyframes and forgets those that are freed; null when places are not recognised.
   LocalMapping(const Rig& rig, Map& map, Places* places, StageTimer& timer)
       : rig_(rig), map_(map), places_(places), timer_(timer) {}
 

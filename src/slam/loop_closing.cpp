@@ -1,7 +1,6 @@
 #include "slam/loop_closing.h"
 
 #include <algorithm>
-#include <memory>
 #include <numbers>
 #include <shared_mutex>
 #include <string>
@@ -29,16 +28,6 @@ std::optional<View> view_of(const Map& map, KeyFrameId id) {
 }
 
 }  // namespace
-
-void LoopClosing::remember(KeyFrameId keyframe) {
-  const auto scope = timer_.time("loop: words");
-  const std::optional<View> view = view_of(map_, keyframe);
-  if (!view) return;
-  places_.database.add(keyframe, std::make_shared<const ImageWords>(
-                                     places_.vocabulary.transform(view->features->descriptors)));
-  // Who culled it in the meantime could not erase it yet.
-  if (!view_of(map_, keyframe)) places_.database.erase(keyframe);
-}
 
 std::optional<VerifiedLoop> LoopClosing::find(KeyFrameId keyframe) {
   const std::shared_ptr<const ImageWords> words = places_.database.words(keyframe);

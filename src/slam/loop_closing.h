@@ -32,11 +32,8 @@ class LoopClosing {
         random_(rig.settings.seed),
         consistency_(rig.settings.loops.consistent_keyframes) {}
 
-  /// Remembers what the keyframe looks like; for each in the order of their creation. A keyframe that is gone
-  /// is left out. Takes shared locks of the map.
-  void remember(KeyFrameId keyframe);
-
-  /// Looks for a loop that ends in this keyframe, which was remembered before. Takes shared locks of the map.
+  /// Looks for a loop that ends in this keyframe, which Places remembers; for each in the order of their
+  /// creation. Takes shared locks of the map.
   [[nodiscard]] std::optional<VerifiedLoop> find(KeyFrameId keyframe);
 
   /// See close_loop() for what must hold. Returns whether the map was moved.

@@ -15,6 +15,7 @@ constexpr std::size_t kMinMatches = 12;
 constexpr int kMinInliers = 12;
 constexpr std::size_t kNeighbours = 2;
 constexpr std::size_t kLatest = 2;
+constexpr std::size_t kAlike = 5;
 
 struct KeyFramePoints {
   std::shared_ptr<const FrameFeatures> features;
@@ -73,23 +74,26 @@ int recover_from_keyframe(const Rig& rig, const Map& map, KeyFrameId keyframe, R
   return 0;
 }
 
-std::vector<KeyFrameId> recovery_candidates(const Map& map, KeyFrameId reference, std::size_t attempt) {
-  const std::shared_lock lock(map.mutex());
+std::vector<KeyFrameId> recovery_candidates(const Map& map, const Places* places, KeyFrameId reference,
+                                            const BowVector& bow) {
   std::vector<KeyFrameId> candidates;
   const auto add = [&](KeyFrameId id) {
     if (id.valid() && std::find(candidates.begin(), candidates.end(), id) == candidates.end()) {
       candidates.push_back(id);
     }
   };
-  const KeyFrameId centre = map.living(reference);
-  add(centre);
-  const std::vector<KeyFrameId> all = map.keyframes_by_sequence();
-  for (std::size_t i = 0; i < std::min(kLatest, all.size()); ++i) add(all[all.size() - 1 - i]);
-  for (const KeyFrameId id : map.best_covisible(centre, kNeighbours)) add(id);
-  if (!all.empty()) {
-    add(all[(2 * attempt) % all.size()]);
-    add(all[(2 * attempt + 1) % all.size()]);
+  {
+    const std::shared_lock lock(map.mutex());
+    const KeyFrameId centre = map.living(reference);
+    add(centre);
+    const std::vector<KeyFrameId> all = map.keyframes_by_sequence();
+    for (std::size_t i = 0; i < std::min(kLatest, all.size()); ++i) add(all[all.size() - 1 - i]);
+    for (const KeyFrameId id : map.best_covisible(centre, kNeighbours)) add(id);
   }
+  if (places == nullptr) return candidates;
+  PlaceQuery query;
+  query.max_candidates = kAlike;
+  for (const PlaceCandidate& alike : places->database.candidates(map, bow, query)) add(alike.keyframe);
   return candidates;
 }
 

@@ -39,7 +39,7 @@ class System::Impl {
         places_(make_places(rig_.settings)),
         features_(rig_.settings.camera, rig_.settings.orb),
         people_(rig_.settings, std::move(detector), timer_, log_),
-        tracking_(rig_, map_, timer_, log_),
+        tracking_(rig_, map_, places_.get(), timer_, log_),
         back_end_(rig_, map_, places_.get(), timer_, log_) {}
 
   TrackResult track(const RgbdFrame& frame) {

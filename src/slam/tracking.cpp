@@ -21,8 +21,8 @@ constexpr double kMaxTurnRadPerS = 12.0;
 
 }  // namespace
 
-Tracking::Tracking(const Rig& rig, Map& map, StageTimer& timer, Log log)
-    : rig_(rig), map_(map), timer_(timer), log_(std::move(log)), placer_(rig, map, timer) {}
+Tracking::Tracking(const Rig& rig, Map& map, const Places* places, StageTimer& timer, Log log)
+    : rig_(rig), map_(map), timer_(timer), log_(std::move(log)), placer_(rig, map, places, timer) {}
 
 KeyFrameId Tracking::take_keyframe() {
   return std::exchange(new_keyframe_, KeyFrameId{});
@@ -70,7 +70,7 @@ bool Tracking::initialize(Frame& frame) {
 bool Tracking::place(Frame& frame) {
   while (true) {
     const std::uint64_t corrections = refresh_last();
-    const PlacementPrior prior{last_, last_inliers_, predicted_pose(frame.time_s), frames_without_pose_};
+    const PlacementPrior prior{last_, last_inliers_, predicted_pose(frame.time_s)};
     std::optional<Placement> placement = placer_.place(prior, frame);
     // The frame may have been placed half in the map before and half in the one after a loop was closed.
     if (corrections != present_corrections()) continue;

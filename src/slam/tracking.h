@@ -17,7 +17,8 @@ namespace cpslam {
 /// Places every frame in the map and decides which become keyframes. One thread.
 class Tracking {
  public:
-  Tracking(const Rig& rig, Map& map, StageTimer& timer, Log log);
+  /// places: null when places are not recognised.
+  Tracking(const Rig& rig, Map& map, const Places* places, StageTimer& timer, Log log);
 
   /// load: what the mapper has to do, as far as it may influence the decision for a keyframe.
   TrackResult track(double time_s, std::shared_ptr<const FrameFeatures> features, MapperLoad load);

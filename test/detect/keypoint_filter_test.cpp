@@ -120,6 +120,16 @@ TEST_F(KeypointFilterTest, KeepsWhatHasNoDepthWhereTheRoomIsAround) {
   EXPECT_FALSE(on_person(100.0F, 264.0F, 0.0F)) << "under him";
 }
 
+TEST_F(KeypointFilterTest, KeepsTheBackgroundInTheShadowHeThrows) {
+  depth_m(cv::Rect(14, 20, 6, 40)).setTo(0.0F);  // left of him
+  EXPECT_TRUE(on_person(76.0F, 160.0F, 0.0F)) << "where he was carried to is a guess";
+  tracks[0].shown = true;
+  EXPECT_FALSE(on_person(76.0F, 160.0F, 0.0F));
+  EXPECT_TRUE(on_person(120.0F, 160.0F, 0.0F)) << "a hole in his surface";
+  depth_m(cv::Rect(20, 17, 20, 3)).setTo(0.0F);
+  EXPECT_TRUE(on_person(120.0F, 75.0F, 0.0F)) << "his hair";
+}
+
 TEST_F(KeypointFilterTest, RemovesWhatHasNoDepthInTheHoleOfHisBox) {
   // His black coat: nothing in his box below the surface has a depth.
   tracks[0].box = {76.0, 76.0, 90.0, 380.0, 0.9};

@@ -17,12 +17,13 @@ class MovingBlobsTest : public testing::Test {
     still_age(where).setTo(0);
   }
   [[nodiscard]] std::vector<GridSurface> find() const {
-    return find_moving_blobs(depth_m, still_age, people);
+    return find_moving_blobs(depth_m, still_age, people, rim_cells);
   }
 
   cv::Mat1f depth_m = cv::Mat1f(120, 160, 4.0F);
   cv::Mat1b still_age = cv::Mat1b(120, 160, std::uint8_t{100});
   cv::Mat1b people = cv::Mat1b(120, 160, std::uint8_t{0});
+  int rim_cells = 1;
   cv::Rect place{50, 30, 20, 50};
 };
 
@@ -50,6 +51,17 @@ TEST_F(MovingBlobsTest, WhatIsStillOrUnknownDoesNotMove) {
   EXPECT_TRUE(find().empty());
   still_age.setTo(StillSurface::kUnknownAge);
   EXPECT_TRUE(find().empty());
+}
+
+TEST_F(MovingBlobsTest, RimsThatAQuickCameraLeavesAreNobody) {
+  const cv::Rect rim{50, 30, 8, 50};
+  arrive(rim, 2.0F);
+  EXPECT_EQ(find().size(), 1U);
+  rim_cells = 4;
+  EXPECT_TRUE(find().empty());
+  arrive(place, 2.0F);
+  ASSERT_EQ(find().size(), 1U) << "he is wider than a rim";
+  EXPECT_EQ(int(find()[0].size()), place.area()) << "and keeps his own";
 }
 
 TEST_F(MovingBlobsTest, WhomSomebodyKnowsIsNoNews) {
@@ -81,7 +93,7 @@ TEST(MovingBlobs, FindWhoWalksIntoARoom) {
     scene::View view = room.look(camera, SE3(), i / 30.0);
     scene::add_noise(view, random);
     still = still.carry(camera, view.depth_m, SE3());
-    const std::vector<GridSurface> blobs = find_moving_blobs(view.depth_m, still.age, scene::blank(view));
+    const std::vector<GridSurface> blobs = find_moving_blobs(view.depth_m, still.age, scene::blank(view), 1);
     const std::vector<int> his = scene::cells_of(view, 1);
     for (const GridSurface& blob : blobs) {
       const auto on_him =

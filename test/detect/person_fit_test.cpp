@@ -27,7 +27,7 @@ struct FitInput {
 
   [[nodiscard]] std::vector<PersonFit> fit() const {
     Random random(seed);
-    const StillSurface still{view.depth_m, still_age, still_age};
+    const StillSurface still{view.depth_m, still_age, still_age, scene::blank(view)};
     return fit_people(scene::grid_camera(), {view.depth_m, people, still}, boxes, keypoints, random);
   }
 };
@@ -109,6 +109,23 @@ TEST(PersonFit, KeepsPeopleInOverlappingBoxesApart) {
   std::set_intersection(fits[0].cells.begin(), fits[0].cells.end(), fits[1].cells.begin(),
                         fits[1].cells.end(), std::back_inserter(both));
   EXPECT_LT(both.size(), fits[0].cells.size() / 20);
+}
+
+TEST(PersonFit, WhoeverIsBeforeSomebodyIsNotHisArm) {
+  // He has just come into the image, very near and cut off, before somebody whose box he is in.
+  const View view = DepthScene()
+                        .wall(4.0F)
+                        .floor()
+                        .person({1, {0.6F, kCameraHeightM, 1.5F}})
+                        .person({2, {0.75F, kCameraHeightM, 0.9F}})
+                        .look(scene::grid_camera());
+  FitInput input{view, {{scene::box_of(view, 1)}, {scene::box_of(view, 2)}}};
+  input.boxes[0].box.width = 640.0 - input.boxes[0].box.x;
+  input.still_age.setTo(0, view.owner != 0);
+  const std::vector<PersonFit> fits = input.fit();
+  EXPECT_GT(iou(fits[0], view, 1), 0.7);
+  EXPECT_GT(iou(fits[1], view, 2), 0.7);
+  EXPECT_LT(count_of(fits[0], view, 2), count_of(fits[1], view, 2) / 10);
 }
 
 TEST(PersonFit, ABoxWithoutDepthHasNoModel) {

@@ -18,10 +18,13 @@ class PersonGrowthTest : public testing::Test {
 
   GrownSurface grow(float mean_m = 2.0F, const KnownBox& known = {}) {
     const SdfModel model{mean_m, 0.1F, 0.25F, 0.5F};
-    const StillSurface still{depth_m, still_age, still_age};
+    const StillSurface still = known_still();
     const SceneEvidence scene{depth_m, people, still};
     PersonGrowth growth(scene, taken);
     return growth.grow(model, box, prior(), background, known);
+  }
+  [[nodiscard]] StillSurface known_still() const {
+    return {depth_m, still_age, still_age, cv::Mat1b(kRows, kColumns, std::uint8_t{0})};
   }
   [[nodiscard]] PlacePrior prior() const {
     return {{box.x * 4.0, box.y * 4.0, box.width * 4.0, box.height * 4.0}, {640, 480}};
@@ -155,6 +158,37 @@ TEST_F(PersonGrowthTest, WhatStandsStillBesideWhoMovesIsNotHis) {
   EXPECT_EQ(count(surface, chair), 0);
 }
 
+TEST_F(PersonGrowthTest, ALegThatComesOutFromBehindTheOtherIsHisWhenHeMoves) {
+  const cv::Rect leg{80, 64, 6, 16};
+  put(torso, 2.0F);
+  put(leg, 2.5F);
+  still_age(leg).setTo(StillSurface::kUnknownAge);
+  KnownBox walker;
+  EXPECT_EQ(count(grow(), leg), 0) << "he sits: it may be a chair's";
+  walker.moves = true;
+  EXPECT_EQ(count(grow(2.0F, walker), leg), leg.area());
+  put(leg, 3.0F);
+  EXPECT_EQ(count(grow(2.0F, walker), leg), 0) << "too far behind";
+  put(leg, 2.5F);
+  still_age(leg).setTo(100);
+  EXPECT_EQ(count(grow(2.0F, walker), leg), 0) << "it has stood there before";
+}
+
+TEST_F(PersonGrowthTest, AnArmBeforeHimIsHisAndSomebodyBeforeHimIsNot) {
+  put(torso, 2.0F);
+  const cv::Rect arm{70, 64, 5, 12};
+  put(arm, 1.5F);
+  still_age(arm).setTo(0);
+  const GrownSurface with_arm = grow();
+  EXPECT_EQ(count(with_arm, arm), arm.area());
+  EXPECT_EQ(int(with_arm.front.size()), arm.area()) << "but may turn out to be another one's";
+  EXPECT_TRUE(std::is_sorted(with_arm.front.begin(), with_arm.front.end()));
+  const cv::Rect somebody{62, 64, 26, 20};
+  put(somebody, 1.5F);
+  still_age(somebody).setTo(0);
+  EXPECT_EQ(count(grow(), somebody), 0);
+}
+
 TEST_F(PersonGrowthTest, FindsNothingWhereNoDepthFitsTheModel) {
   EXPECT_TRUE(grow(1.0F).cells.empty());
   depth_m.setTo(0.0F);
@@ -163,7 +197,7 @@ TEST_F(PersonGrowthTest, FindsNothingWhereNoDepthFitsTheModel) {
 
 TEST_F(PersonGrowthTest, ServesSeveralBoxesOneAfterTheOther) {
   put(torso, 2.0F);
-  const StillSurface still{depth_m, still_age, still_age};
+  const StillSurface still = known_still();
   const SceneEvidence scene{depth_m, people, still};
   PersonGrowth growth(scene, taken);
   const SdfModel model{2.0F, 0.1F, 0.25F, 0.5F};

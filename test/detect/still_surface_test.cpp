@@ -62,6 +62,22 @@ TEST(StillSurface, WhatIsUncoveredIsUnknown) {
   const cv::Rect inside(leaves.x + 1, leaves.y + 1, leaves.width - 2, leaves.height - 2);
   EXPECT_EQ(cv::countNonZero(still.age(inside) == StillSurface::kUnknownAge), inside.area());
   EXPECT_LT(StillSurface::kUnknownAge, StillSurface::kStillAge);
+  EXPECT_EQ(cv::countNonZero(still.changed(inside)), inside.area());
+  EXPECT_EQ(still.changed(20, 20), 0) << "the wall beside";
+}
+
+TEST(StillSurface, WhatTheCameraTurnsToHasNotChanged) {
+  const GridCamera camera = scene::grid_camera();
+  const DepthScene room = DepthScene().wall(3.5F);
+  StillSurface still = StillSurface::begin(room.look(camera).depth_m);
+  SE3 last;
+  for (int i = 1; i <= 10; ++i) {
+    const SE3 next = scene::world_from_camera_at(0.03 * i, 0.0, 0.0);
+    still = still.carry(camera, room.look(camera, next).depth_m, next.inverse() * last);
+    last = next;
+  }
+  EXPECT_GT(cv::countNonZero(still.age < 2 + StillSurface::kUnknownAge), 100) << "came into view";
+  EXPECT_EQ(cv::countNonZero(still.changed), 0);
 }
 
 TEST(StillSurface, WhatBelongsToSomebodyIsNoBackground) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -198,6 +199,25 @@ TEST_F(YoloDetectorTest, RunsInEightBits) {
     EXPECT_NEAR(found.height, expected.height, 0.07 * expected.height);
     EXPECT_GT(found.confidence, 0.98);
   }
+}
+
+TEST_F(YoloDetectorTest, TheBundledNetworkRunsWhenNoneIsNamed) {
+  const GeneratedNetwork network;
+  folder_.write("models/yc.cfg", network.config());
+  folder_.write("models/yc.weights", weights_file(network.weights()));
+  ASSERT_EQ(setenv("CPSLAM_DATA", folder_.path().c_str(), 1), 0);
+  DetectorSettings settings;
+  settings.kind = DetectorKind::kYolo;
+  // That of the source tree comes first, if its weights are there.
+  const std::optional<DetectorModel> model = bundled_detector_model();
+  ASSERT_TRUE(model);
+  EXPECT_THAT(model->cfg, HasSubstr("models/yc.cfg"));
+  EXPECT_THAT(make_detector(settings)->name(), HasSubstr(model->weights));
+  ASSERT_EQ(unsetenv("CPSLAM_DATA"), 0);
+
+  settings.model_weights = model->weights;
+  EXPECT_THAT(input_error([&] { (void)make_detector(settings); }),
+              testing::AllOf(HasSubstr("--model CFG WEIGHTS"), HasSubstr("--detector none")));
 }
 
 TEST_F(YoloDetectorTest, SaysWhatCalibrationLacks) {

@@ -19,6 +19,7 @@ Clip render_clip(const sim::SimulationOptions& options) {
   Clip clip;
   clip.settings = simulation.settings();
   clip.settings.sequential = true;
+  clip.settings.vocabulary = CPSLAM_SOURCE_DIR "/Vocabulary/cpslam.voc";
   for (int i = 0; i < simulation.size(); ++i) {
     const sim::SimulatedFrame frame = simulation.render(i);
     clip.frames.push_back({frame.colour_bgr, frame.depth, frame.time_s, to_pose(frame.world_from_camera)});

@@ -9,6 +9,7 @@
 namespace cpslam {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -119,13 +120,8 @@ TEST(TrackingRun, AssociationsGiveTheSameAsTheLists) {
   EXPECT_EQ(TemporaryFolder::content(office.result("CameraTrajectory.txt")), from_lists);
 }
 
-TEST(TrackingRun, TheVocabularyIsReadAndLoopsAreLookedFor) {
+TEST(TrackingRun, LoopsAreLookedForUnlessToldNotTo) {
   const OfficeSequence office;
-  const std::string broken = office.folder().write("ORBvoc.txt", "10 6 0 0\n0 0 1 2 3\n");
-  const ProgramResult with = run_rgbd_tum({broken, office.settings(), office.path(), "--output",
-                                           office.output(), "--max-frames", "3", "--detector", "none"});
-  EXPECT_EQ(with.exit_code, 2);
-  EXPECT_THAT(with.err, HasSubstr(broken));
   const ProgramResult bundled = office.track({"--max-frames", "3"});
   EXPECT_EQ(bundled.exit_code, 0);
   EXPECT_THAT(bundled.out, HasSubstr("loops       0 closed"));
@@ -134,6 +130,33 @@ TEST(TrackingRun, TheVocabularyIsReadAndLoopsAreLookedFor) {
   EXPECT_EQ(without.exit_code, 0);
   EXPECT_THAT(without.out, Not(HasSubstr("loops ")));
   EXPECT_THAT(TemporaryFolder::content(office.result("stats.json")), HasSubstr("\"loops\": null"));
+}
+
+TEST(TrackingRun, VocabulariesOfOurOwnAndPublicOnesAreRead) {
+  const OfficeSequence office;
+  std::string text = "2 1 0 0\n";
+  for (const char* const byte : {" 0", " 255"}) {
+    text += "0 1";
+    for (int i = 0; i < 32; ++i) text += byte;
+    text += " 1\n";
+  }
+  const std::string vocabulary = office.folder().write("small.txt", text);
+  const auto run = [&](const std::string& name) {
+    return run_rgbd_tum({name, office.settings(), office.path(), "--output", office.output(), "--max-frames",
+                         "3", "--detector", "none", "--quiet"});
+  };
+  for (const std::string& name :
+       {vocabulary, std::string("-"), std::string(CPSLAM_SOURCE_DIR "/Vocabulary/cpslam.voc")}) {
+    const ProgramResult result = run(name);
+    EXPECT_EQ(result.exit_code, 0) << name;
+    EXPECT_EQ(result.err, "") << name;
+  }
+  const ProgramResult broken = run(office.folder().write("broken.txt", "10 6 0 0\n0 0 1 2 3\n"));
+  EXPECT_EQ(broken.exit_code, 2);
+  EXPECT_THAT(broken.err, AllOf(HasSubstr("broken.txt"), HasSubstr("line 2")));
+  const ProgramResult missing = run("no_such.voc");
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_THAT(missing.err, AllOf(HasSubstr("no_such.voc"), HasSubstr("No such file")));
 }
 
 }  // namespace

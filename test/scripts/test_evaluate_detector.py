@@ -96,6 +96,7 @@ def test_every_network_at_every_size_in_both_numbers(evaluate, labelled):
             assert cells(result.stdout, network, size, "int8")[4:6] == ["0.333", "1.000"]
             assert cells(result.stdout, network, size, "int8")[7:10] == ["10.0", "20.0", "0.62"]
             assert cells(result.stdout, network, size, "float")[7:10] == ["16.0", "20.0", "-"]
+            assert cells(result.stdout, network, size, "float")[4:6] == ["0.667", "0.667"]
 
 
 def test_the_bundled_network_is_the_default(evaluate, labelled):

@@ -76,6 +76,16 @@ def test_other_systems_are_told_what_to_install(shell, system, known):
         assert "only Debian 12 and Ubuntu 24.04" in process.stderr and "libceres-dev" in process.stderr
 
 
+def test_what_training_needs_is_installed_where_it_is_missing(shell):
+    process, calls = shell(script("training/install.sh"))
+    assert process.returncode == 0 and calls == []
+    process, calls = shell(script("training/install.sh"), missing="python3-torch")
+    assert process.returncode == 0, process.stderr
+    assert calls == ["apt-get update", "apt-get install --yes --no-install-recommends python3-torch"]
+    process, calls = shell(script("training/install.sh"), "--all")
+    assert process.returncode == 2 and "unknown option '--all'" in process.stderr
+
+
 def test_a_failing_package_manager_ends_the_script(shell, tmp_path):
     install(tmp_path / "fake_bin" / "apt-get", "#!/bin/bash\nexit 100\n")
     process, _ = shell(script("test.sh"), missing="cmake")

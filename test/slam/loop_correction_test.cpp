@@ -103,7 +103,7 @@ TEST(LoopClosingTest, FindsTheLoopOfARoundWalkAndOnlyThat) {
   LoopClosing loops(kRig, walk.map, *places, timer, Log(LogSink{}));
   std::vector<std::size_t> closed_at;
   for (std::size_t i = 0; i < walk.keyframes.size(); ++i) {
-    loops.remember(walk.keyframes[i]);
+    places->remember(walk.map, walk.keyframes[i]);
     const auto loop = loops.find(walk.keyframes[i]);
     if (!loop) continue;
     ASSERT_GE(i, 23U) << "nothing was seen twice before";

@@ -31,38 +31,64 @@ struct Chain {
   std::vector<KeyFrameId> ids;
 };
 
-TEST(RecoveryCandidates, ReferenceFirstThenTheLatestThenItsNeighboursThenOthersInTurn) {
-  const Chain chain(20);
-  EXPECT_THAT(recovery_candidates(chain.map, chain.ids[10], 1),
-              testing::ElementsAre(chain.ids[10], chain.ids[19], chain.ids[18], chain.ids[9], chain.ids[11],
-                                   chain.ids[2], chain.ids[3]));
+/// Words of an image that has one word only.
+std::shared_ptr<const ImageWords> one_word(WordId word) {
+  ImageWords words;
+  words.bow.push_back({word, 1.0F});
+  return std::make_shared<const ImageWords>(std::move(words));
 }
 
-TEST(RecoveryCandidates, EveryKeyFrameGetsItsTurn) {
-  for (const std::size_t n : {1U, 2U, 3U, 20U, 21U}) {
-    const Chain chain(n);
-    std::set<KeyFrameId> tried;
-    for (std::size_t attempt = 0; attempt < (n + 1) / 2; ++attempt) {
-      const auto candidates = recovery_candidates(chain.map, chain.ids[0], 7 + attempt);
-      EXPECT_LE(candidates.size(), 7U) << "a bounded effort for each frame";
-      EXPECT_EQ(std::set<KeyFrameId>(candidates.begin(), candidates.end()).size(), candidates.size());
-      tried.insert(candidates.begin(), candidates.end());
-    }
-    EXPECT_EQ(tried.size(), n);
-  }
+/// A vocabulary of n words, which these tests give out themselves.
+Vocabulary words_only(std::uint32_t n) {
+  VocabularyTree tree;
+  tree.branching = n;
+  tree.depth = 1;
+  tree.descriptors.resize(n + 1);
+  tree.first_child.assign(n + 2, n + 1);
+  tree.first_child[0] = 1;
+  tree.word_weights.assign(n, 1.0F);
+  return Vocabulary(std::move(tree));
+}
+
+TEST(RecoveryCandidates, ReferenceFirstThenTheLatestThenItsNeighbours) {
+  const Chain chain(20);
+  EXPECT_THAT(recovery_candidates(chain.map, nullptr, chain.ids[10], {}),
+              testing::ElementsAre(chain.ids[10], chain.ids[19], chain.ids[18], chain.ids[9], chain.ids[11]));
+}
+
+TEST(RecoveryCandidates, ThenThePlacesThatLookAlikeEachOnce) {
+  const Chain chain(20);
+  Places places(words_only(10));
+  places.database.add(chain.ids[3], one_word(7));
+  places.database.add(chain.ids[5], one_word(7));
+  places.database.add(chain.ids[6], one_word(2));
+  places.database.add(chain.ids[19], one_word(7));
+  EXPECT_THAT(recovery_candidates(chain.map, &places, chain.ids[10], one_word(7)->bow),
+              testing::ElementsAre(chain.ids[10], chain.ids[19], chain.ids[18], chain.ids[9], chain.ids[11],
+                                   chain.ids[3], chain.ids[5]));
+}
+
+TEST(RecoveryCandidates, ABoundedEffortForEachFrame) {
+  const Chain chain(100);
+  Places places(words_only(10));
+  for (std::size_t i = 0; i < 100; i += 3) places.database.add(chain.ids[i], one_word(7));
+  const auto candidates = recovery_candidates(chain.map, &places, chain.ids[0], one_word(7)->bow);
+  EXPECT_LE(candidates.size(), 10U);
+  EXPECT_EQ(std::set<KeyFrameId>(candidates.begin(), candidates.end()).size(), candidates.size());
 }
 
 TEST(RecoveryCandidates, CulledReferenceIsStoodInForByItsAncestor) {
   Chain chain(10);
   ASSERT_TRUE(chain.map.erase_keyframe(chain.ids[5]));
-  const auto candidates = recovery_candidates(chain.map, chain.ids[5], 0);
+  const auto candidates = recovery_candidates(chain.map, nullptr, chain.ids[5], {});
   EXPECT_EQ(candidates.front(), chain.ids[4]);
   for (const KeyFrameId id : candidates) EXPECT_NE(chain.map.keyframe(id), nullptr);
 }
 
 TEST(RecoveryCandidates, EmptyMapHasNone) {
   const Map map(kRig.pyramid);
-  EXPECT_TRUE(recovery_candidates(map, KeyFrameId{}, 3).empty());
+  const Places places(words_only(10));
+  EXPECT_TRUE(recovery_candidates(map, &places, KeyFrameId{}, one_word(3)->bow).empty());
 }
 
 TEST(RecoverFromKeyFrame, PlacesAFrameWithoutPrediction) {

@@ -4,7 +4,8 @@
 
 #include <numeric>
 
-#include "slam/loop_scene.h"
+#include "place/vocabulary_training.h"
+#include "slam/scene.h"
 
 namespace cpslam {
 namespace {

@@ -116,8 +116,12 @@ class RepeatedSequence(Sequence):
                        os.path.join(self.directory, folder))
 
     def _rows(self, name):
-        path = os.path.join(self.source.directory, name)
-        return sorted((float(fields[0]), fields[1:]) for _, fields in read_rows(path))
+        return rows_of(os.path.join(self.source.directory, name))
+
+
+def rows_of(path):
+    """[(stamp, further fields)] of a TUM-format list, by stamp."""
+    return sorted((float(fields[0]), fields[1:]) for _, fields in read_rows(path))
 
 
 def repeated(rows, begin, end, period, rounds):

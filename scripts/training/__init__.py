@@ -1,0 +1,1 @@
+"""Trains one-class Darknet YOLO detectors; ../train_detector.py is its command line, models/README.md the recipe."""

@@ -32,7 +32,7 @@ Trajectory track(const test::SimulatedFrames& frames, const std::function<void(M
   const Rig rig(frames.with_mode(true));
   Map map(rig.pyramid);
   StageTimer timer;
-  Tracking tracking(rig, map, timer, Log());
+  Tracking tracking(rig, map, nullptr, timer, Log());
   FrameFeaturesBuilder features(rig.settings.camera, rig.settings.orb);
   for (std::size_t i = 0; i < kFrames; ++i) {
     between(map, i);

@@ -47,6 +47,7 @@ Settings effective_settings(const RgbdTumOptions& options) {
   settings.sequential = options.sequential;
   settings.realtime = options.realtime;
   settings.seed = options.seed;
+  settings.loops.enabled = !options.no_loop;
   settings.vocabulary = find_vocabulary(options.vocabulary);
   apply(options.detector, settings);
   return settings;

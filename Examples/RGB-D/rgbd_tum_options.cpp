@@ -50,6 +50,7 @@ void add_run_options(CLI::App& app, RgbdTumOptions& options) {
                "Pace by the time stamps and drop frames when late, like a live camera")
       ->excludes(sequential)
       ->group(group);
+  app.add_flag("--no-loop", options.no_loop, "Close no loops")->group(group);
   app.add_option("--seed", options.seed, "Seed of every random draw")->capture_default_str()->group(group);
 }
 

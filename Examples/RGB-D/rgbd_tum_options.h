@@ -17,6 +17,7 @@ struct RgbdTumOptions {
   std::string associations;  ///< empty: rgb.txt and depth.txt are associated
   std::string output = ".";
   bool sequential = false;
+  bool no_loop = false;
   bool realtime = false;
   bool print_settings = false;
   bool quiet = false;

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "common/loop_report.h"
 #include "common/people_report.h"
 #include "common/report_text.h"
 
@@ -46,6 +47,8 @@ nlohmann::ordered_json settings_json(const Settings& s) {
             {"queue_capacity", s.mapping.queue_capacity}}},
           {"detector", detector_settings_json(s)},
           {"people", people_settings_json(s.people)},
+          {"loops", loop_settings_json(s.loops)},
+          {"vocabulary", s.vocabulary},
           {"sequential", s.sequential},
           {"realtime", s.realtime},
           {"seed", s.seed}};
@@ -92,6 +95,8 @@ std::string to_json(const RunReport& report) {
   }
   json["people"] = nullptr;
   if (has_people(report)) json["people"] = people_json(report);
+  json["loops"] = nullptr;
+  if (has_loops(report)) json["loops"] = loops_json(s);
   json["peak_memory_mb"] = report.peak_memory_mb;
   json["wall_s"] = report.wall_s;
   json["ate"] = nullptr;
@@ -122,6 +127,7 @@ std::string to_text(const RunReport& report) {
                  track->p95_ms, track->max_ms);
   }
   if (has_people(report)) text += people_text(report);
+  if (has_loops(report)) text += loops_text(s);
   text += line("total       %.1f s, peak memory %.0f MB", report.wall_s, report.peak_memory_mb);
   if (report.ate) {
     text += line("ATE         %.4f m RMSE, %.4f m median, %.4f m max over %zu poses", report.ate->rmse_m,

@@ -88,6 +88,12 @@ struct PeopleSettings {
   bool reinstate_still = true;  ///< keypoints on people who do not move come back
 };
 
+struct LoopSettings {
+  bool enabled = true;           ///< needs a vocabulary
+  int min_inliers = 40;          ///< points of the earlier visit that a keyframe must see to close a loop
+  int consistent_keyframes = 4;  ///< in a row that must recognise the place
+};
+
 struct Settings {
   CameraSettings camera;
   OrbSettings orb;
@@ -95,6 +101,7 @@ struct Settings {
   MappingSettings mapping;
   DetectorSettings detector;
   PeopleSettings people;
+  LoopSettings loops;
   std::string vocabulary;  ///< file with the words of images (vocabulary_tool); empty: no place is recognised
   bool sequential =
       false;               ///< all stages one after the other in the caller's thread: reproducible to the bit

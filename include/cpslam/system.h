@@ -18,7 +18,7 @@ namespace cpslam {
 class System {
  public:
   /// Uses the detector that settings.detector asks for. Throws InputError when a setting is missing or out of
-  /// range, or a file of the detector's is missing or broken.
+  /// range, or the vocabulary or a file of the detector's is missing or broken.
   explicit System(const Settings& settings, LogSink log = {});
   /// The same with a detector of the caller's; null for none.
   System(const Settings& settings, std::unique_ptr<PersonDetector> detector, LogSink log = {});

@@ -72,6 +72,22 @@ struct PeopleStatistics {
   double max_boxes_age_s = 0.0;
 };
 
+/// A place that was recognised, and the map bent so that it is one.
+struct LoopEvent {
+  double time_s = 0.0;          ///< of the keyframe that recognised it
+  double matched_time_s = 0.0;  ///< of the keyframe that had been there before
+  int inliers = 0;              ///< points of the earlier visit that the later one sees again
+  double error_m = 0.0;         ///< how far the map had the one off the other
+  double error_deg = 0.0;
+};
+
+/// What loop closing did.
+struct LoopStatistics {
+  std::vector<LoopEvent> events;                     ///< by the order in which they were closed
+  std::size_t full_bundle_adjustments = 0;           ///< of the whole map, after a loop
+  std::size_t full_bundle_adjustments_given_up = 0;  ///< for the next loop, or at the end
+};
+
 struct Statistics {
   std::size_t frames = 0;
   std::size_t tracked = 0;
@@ -84,6 +100,7 @@ struct Statistics {
   std::size_t map_points_created = 0;
   std::size_t local_bundle_adjustments = 0;
   PeopleStatistics people;
+  LoopStatistics loops;
   std::vector<StageTimes> stages;  ///< "detect" is the detector's
 };
 

@@ -92,6 +92,15 @@ void Map::adopt_children(KeyFrameId orphaned_by, const KeyFrame& dead) {
   }
 }
 
+void Map::add_loop_edge(KeyFrameId a, KeyFrameId b) {
+  KeyFrame* first = keyframes_.find(a);
+  KeyFrame* second = keyframes_.find(b);
+  if (first == nullptr || second == nullptr || a == b) return;
+  if (std::find(first->loops.begin(), first->loops.end(), b) != first->loops.end()) return;
+  first->loops.push_back(b);
+  second->loops.push_back(a);
+}
+
 std::vector<KeyFrameId> Map::best_covisible(KeyFrameId id, std::size_t n) const {
   std::vector<KeyFrameId> best;
   if (const KeyFrame* keyframe = keyframes_.find(id)) {

@@ -26,6 +26,7 @@ struct KeyFrame {
   std::vector<Covisible> covisible;  ///< most shared points first, then the older keyframe
   KeyFrameId parent;                 ///< in the spanning tree; invalid for the root
   std::vector<KeyFrameId> children;
+  std::vector<KeyFrameId> loops;  ///< recognised as the same place although no track of points led there
 
   [[nodiscard]] Eigen::Vector3d centre_in_world() const {
     return -(cam_from_world.rotation.transpose() * cam_from_world.translation);

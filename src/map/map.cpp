@@ -20,7 +20,7 @@ void Map::set_pose(KeyFrameId id, const SE3& cam_from_world) {
 
 bool Map::erase_keyframe(KeyFrameId id) {
   KeyFrame* keyframe = keyframes_.find(id);
-  if (keyframe == nullptr || !keyframe->parent.valid()) return false;
+  if (keyframe == nullptr || !keyframe->parent.valid() || !keyframe->loops.empty()) return false;
   const std::vector<MapPointId> points = keyframe->points;
   for (const MapPointId point : points) {
     if (point.valid()) erase_observation(point, id);
@@ -80,6 +80,13 @@ MapPointId Map::add_point(const Eigen::Vector3d& position_in_world, const Observ
   refresh_point(id);
   ++points_created_;
   return id;
+}
+
+std::vector<MapPointId> Map::point_ids() const {
+  std::vector<MapPointId> ids;
+  ids.reserve(points_.size());
+  points_.for_each([&](MapPointId id, const MapPoint&) { ids.push_back(id); });
+  return ids;
 }
 
 void Map::set_position(MapPointId id, const Eigen::Vector3d& position_in_world) {
@@ -170,25 +177,33 @@ void Map::refresh_points_of(KeyFrameId keyframe_id) {
   }
 }
 
-void Map::refresh_point(MapPointId id) {
+void Map::refresh_geometry(MapPointId id) {
   MapPoint* point = points_.find(id);
   if (point == nullptr || point->observations.empty()) return;
   Eigen::Vector3d direction_sum = Eigen::Vector3d::Zero();
-  std::vector<const Descriptor*> descriptors;
   for (const Observation& seen : point->observations) {
     const KeyFrame& keyframe = *keyframes_.find(seen.keyframe);
     const Eigen::Vector3d ray = point->position_in_world - keyframe.centre_in_world();
     direction_sum += ray.normalized();
-    const auto keypoint = static_cast<std::size_t>(seen.keypoint);
-    descriptors.push_back(&keyframe.features->descriptors[keypoint]);
     if (seen.keyframe == point->reference) {
+      const auto keypoint = static_cast<std::size_t>(seen.keypoint);
       const auto octave = static_cast<std::size_t>(keyframe.features->keypoints[keypoint].octave);
       point->max_distance_m = static_cast<float>(ray.norm()) * pyramid_.factor[octave];
       point->min_distance_m = point->max_distance_m / pyramid_.factor.back();
     }
   }
   point->normal = direction_sum.normalized();
+}
 
+void Map::refresh_point(MapPointId id) {
+  refresh_geometry(id);
+  MapPoint* point = points_.find(id);
+  if (point == nullptr || point->observations.empty()) return;
+  std::vector<const Descriptor*> descriptors;
+  for (const Observation& seen : point->observations) {
+    const FrameFeatures& features = *keyframes_.find(seen.keyframe)->features;
+    descriptors.push_back(&features.descriptors[static_cast<std::size_t>(seen.keypoint)]);
+  }
   // The medoid of the latest observations; more of them change nothing but the cost, which is quadratic.
   constexpr std::size_t kMaxCompared = 16;
   if (descriptors.size() > kMaxCompared) {

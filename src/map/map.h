@@ -34,7 +34,8 @@ class Map {
   [[nodiscard]] const KeyFrame* keyframe(KeyFrameId id) const { return keyframes_.find(id); }
   void set_pose(KeyFrameId id, const SE3& cam_from_world);
   /// Frees a keyframe: its observations go (and the points that lose too many), its children find new
-  /// parents, and a tombstone keeps its pose relative to its parent. The root stays; returns false for it.
+  /// parents, and a tombstone keeps its pose relative to its parent. The root and the ends of loop edges
+  /// stay: returns false for them.
   bool erase_keyframe(KeyFrameId id);
   /// Pose of a live or culled keyframe; a culled one's follows from the pose of its nearest living ancestor.
   [[nodiscard]] std::optional<SE3> cam_from_world(KeyFrameId id) const;
@@ -47,6 +48,7 @@ class Map {
   /// Adds a point with its first observation; its descriptor, normal and distance range come from there.
   MapPointId add_point(const Eigen::Vector3d& position_in_world, const Observation& first);
   [[nodiscard]] const MapPoint* point(MapPointId id) const { return points_.find(id); }
+  [[nodiscard]] std::vector<MapPointId> point_ids() const;
   void set_position(MapPointId id, const Eigen::Vector3d& position_in_world);
   void count_visible(MapPointId id, bool found);
   void erase_point(MapPointId id);
@@ -64,7 +66,9 @@ class Map {
   [[nodiscard]] int keypoint_of(MapPointId point, KeyFrameId keyframe) const;
   /// Recomputes descriptor, normal and distance range of a point from its observations.
   void refresh_point(MapPointId id);
-  /// The same for every point the keyframe sees.
+  /// Only the normal and the distance range: enough where points and keyframes have moved, and cheaper.
+  void refresh_geometry(MapPointId id);
+  /// refresh_point() for every point the keyframe sees.
   void refresh_points_of(KeyFrameId keyframe);
 
   // Covisibility graph and spanning tree
@@ -73,6 +77,8 @@ class Map {
   void update_covisibility(KeyFrameId id);
   /// The n keyframes that share most points with this one.
   [[nodiscard]] std::vector<KeyFrameId> best_covisible(KeyFrameId id, std::size_t n) const;
+  /// Joins two keyframes that show the same place. Does nothing when either is gone.
+  void add_loop_edge(KeyFrameId a, KeyFrameId b);
   /// Points of the keyframe that at least min_observations keyframes see.
   [[nodiscard]] int count_points(KeyFrameId id, std::size_t min_observations) const;
 
@@ -84,6 +90,9 @@ class Map {
   [[nodiscard]] std::uint64_t points_created() const { return points_created_; }
   /// Grows with every change of structure or geometry; tells a reader when its copy is stale.
   [[nodiscard]] std::uint64_t version() const { return version_; }
+  /// How often the map as a whole has been bent (a loop closed): a pose found before fits no more.
+  [[nodiscard]] std::uint64_t corrections() const { return corrections_; }
+  void count_correction() { ++corrections_; }
 
  private:
   struct Tombstone {
@@ -104,6 +113,7 @@ class Map {
   std::uint64_t keyframes_created_ = 0;
   std::uint64_t points_created_ = 0;
   std::uint64_t version_ = 0;
+  std::uint64_t corrections_ = 0;
 };
 
 }  // namespace cpslam

@@ -7,12 +7,12 @@
 #include <memory>
 #include <string>
 
-#include "ceres/iteration_callback.h"
 #include "ceres/loss_function.h"
 #include "ceres/ordered_groups.h"
 #include "ceres/problem.h"
 #include "ceres/solver.h"
 #include "cpslam/error.h"
+#include "optim/abort_callback.h"
 #include "optim/reprojection.h"
 #include "optim/reprojection_cost.h"
 
@@ -45,22 +45,6 @@ void check(const BundleProblem& problem) {
     throw InputError("adjust_bundle: no pose is fixed, so the map could drift freely; fix at least one");
   }
 }
-
-bool abort_wanted(const BundleOptions& options) {
-  return options.abort != nullptr && options.abort->load(std::memory_order_relaxed);
-}
-
-/// Ends a solve when the flag is raised; Ceres then hands back the last accepted step, the best so far.
-class AbortCallback final : public ceres::IterationCallback {
- public:
-  explicit AbortCallback(const BundleOptions& options) : options_(options) {}
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
-    return abort_wanted(options_) ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
-  }
-
- private:
-  const BundleOptions& options_;
-};
 
 struct Judgement {
   std::vector<std::uint8_t> unusable;  ///< behind the camera or not finite
@@ -113,7 +97,7 @@ class BundleRound {
   /// Iterations done.
   int solve(const BundleOptions& options, int max_iterations) {
     if (ceres_problem_.NumResidualBlocks() == 0 || max_iterations <= 0) return 0;
-    AbortCallback callback(options);
+    AbortCallback callback(options.abort);
     ceres::Solver::Options solver;
     // Without a free pose there is no Schur complement; Ceres then turns the sparse kind, and only that one,
     // into a solver that knows the points to be independent.
@@ -190,19 +174,19 @@ BundleResult adjust_bundle(BundleProblem& problem, const BundleOptions& options)
   BundleResult result;
   Judgement judgement = judge(problem);
   result.initial_cost = judgement.cost;
-  if (!abort_wanted(options)) {
+  if (!is_raised(options.abort)) {
     result.iterations +=
         BundleRound(problem, judgement.unusable, true).solve(options, options.robust_iterations);
     judgement = judge(problem);
   }
-  if (!abort_wanted(options)) {
+  if (!is_raised(options.abort)) {
     result.iterations +=
         BundleRound(problem, judgement.outlier, false).solve(options, options.final_iterations);
     judgement = judge(problem);
   }
   // The flag may also have come up after the last iteration; nothing was cut short then, but saying so is
   // harmless.
-  result.aborted = abort_wanted(options);
+  result.aborted = is_raised(options.abort);
   result.outlier = std::move(judgement.outlier);
   result.final_cost = judgement.cost;
   return result;

@@ -1,8 +1,5 @@
 #include "slam/motion_tracker.h"
 
-#include <mutex>
-#include <shared_mutex>
-
 #include "match/orb_matcher.h"
 #include "slam/observation_model.h"
 #include "slam/pose_refinement.h"
@@ -61,15 +58,15 @@ void add_temporary_points(const Rig& rig, Frame& frame) {
   }
 }
 
-void refresh_matches(const Map& map, Frame& frame) {
-  const std::shared_lock lock(map.mutex());
+void refresh_frame(const Map& map, const SE3& cam_from_world, Frame& frame) {
+  const SE3 new_from_old = cam_from_world.inverse() * frame.cam_from_world;
+  frame.cam_from_world = cam_from_world;
   for (PointMatch& match : frame.matches) {
-    if (match.kind != PointMatch::Kind::kMapPoint) continue;
-    if (const MapPoint* point = map.point(match.id)) {
-      match.position_in_world = point->position_in_world;
-    } else {
-      match.kind = PointMatch::Kind::kTemporary;
-    }
+    if (match.kind == PointMatch::Kind::kNone) continue;
+    const MapPoint* point = match.kind == PointMatch::Kind::kMapPoint ? map.point(match.id) : nullptr;
+    if (point == nullptr) match.kind = PointMatch::Kind::kTemporary;
+    match.position_in_world =
+        point != nullptr ? point->position_in_world : Eigen::Vector3d(new_from_old * match.position_in_world);
   }
 }
 

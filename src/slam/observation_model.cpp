@@ -9,15 +9,10 @@ namespace {
 
 // Localisation error of a FAST corner at its own pyramid level, px.
 constexpr double kKeypointSigmaPx = 1.0;
-// A corner mostly lies on an object's rim, where registration errors, bleeding depth edges and the two
-// sensors' different shutters count far more than the noise of the depth sensor on a surface. So no disparity
-// is believed to better than this, at the keypoint's own pyramid level; docs/benchmarks.md has the
-// measurement behind it.
-constexpr double kMinDisparitySigmaPx = 3.0;
-
 }  // namespace
 
-PointObservation observe(const Rig& rig, const FrameFeatures& features, int keypoint) {
+PointObservation observe(const Rig& rig, const FrameFeatures& features, int keypoint,
+                         double min_disparity_sigma_px) {
   const auto i = static_cast<std::size_t>(keypoint);
   const Keypoint& k = features.keypoints[i];
   PointObservation seen;
@@ -27,7 +22,7 @@ PointObservation observe(const Rig& rig, const FrameFeatures& features, int keyp
   if (const double depth_m = features.depth_m[i]; depth_m > 0.0) {
     seen.disparity = features.disparity_px[i];
     const double sensor_sigma_px = seen.disparity / depth_m * static_cast<double>(features.depth_sigma_m[i]);
-    seen.sigma_disparity_px = std::max(kMinDisparitySigmaPx * level_scale, sensor_sigma_px);
+    seen.sigma_disparity_px = std::max(min_disparity_sigma_px * level_scale, sensor_sigma_px);
   }
   return seen;
 }

@@ -119,14 +119,19 @@ void fuse_into(const Rig& rig, Map& map, const std::vector<KeyFrameId>& sources,
 
 }  // namespace
 
+void fuse_between(const Rig& rig, Map& map, const std::vector<KeyFrameId>& sources,
+                  const std::vector<KeyFrameId>& targets) {
+  for (const KeyFrameId target : targets) fuse_into(rig, map, sources, target);
+}
+
 void fuse_points(const Rig& rig, Map& map, KeyFrameId keyframe) {
   std::vector<KeyFrameId> neighbours;
   {
     const std::shared_lock lock(map.mutex());
     neighbours = fusion_neighbours(map, keyframe);
   }
-  for (const KeyFrameId neighbour : neighbours) fuse_into(rig, map, {keyframe}, neighbour);
-  fuse_into(rig, map, neighbours, keyframe);
+  fuse_between(rig, map, {keyframe}, neighbours);
+  fuse_between(rig, map, neighbours, {keyframe});
   const std::unique_lock lock(map.mutex());
   map.refresh_points_of(keyframe);
   map.update_covisibility(keyframe);

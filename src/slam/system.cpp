@@ -1,6 +1,5 @@
 #include "cpslam/system.h"
 
-#include <atomic>
 #include <cmath>
 #include <optional>
 #include <shared_mutex>
@@ -9,17 +8,14 @@
 #include "detect/people.h"
 #include "features/image_check.h"
 #include "place/vocabulary_file.h"
+#include "slam/back_end.h"
 #include "slam/frame_input.h"
-#include "slam/local_mapping.h"
 #include "slam/places.h"
 #include "slam/rig.h"
 #include "slam/tracking.h"
-#include "util/worker.h"
 
 namespace cpslam {
 namespace {
-
-constexpr std::size_t kMaxFramesAhead = 2;
 
 Settings checked(const Settings& settings) {
   settings.check();
@@ -43,28 +39,13 @@ class System::Impl {
         places_(make_places(rig_.settings)),
         features_(rig_.settings.camera, rig_.settings.orb),
         people_(rig_.settings, std::move(detector), timer_, log_),
-        mapping_(rig_, map_, places_.get(), timer_),
-        tracking_(rig_, map_, places_.get(), timer_, log_) {
-    if (rig_.settings.sequential) return;
-    mapper_.emplace(
-        [this](KeyFrameId&& id, const std::stop_token& stop) {
-          if (stop.stop_requested()) return;
-          abort_ = false;
-          mapping_.process(id, abort_);
-        },
-        static_cast<std::size_t>(rig_.settings.mapping.queue_capacity));
-    mapper_->start();
-  }
-
-  ~Impl() {
-    abort_ = true;
-    if (mapper_) mapper_->stop(OnStop::kDrop);
-  }
+        tracking_(rig_, map_, places_.get(), timer_, log_),
+        back_end_(rig_, map_, places_.get(), timer_, log_) {}
 
   TrackResult track(const RgbdFrame& frame) {
     const double depth_time_s = frame.depth_time_s.value_or(frame.time_s);
     check_input(frame, depth_time_s);
-    let_mapper_catch_up();
+    back_end_.let_catch_up();
     if (!last_time_s_) warn_about_depth_scale(frame.depth, rig_.settings.camera.depth_map_factor, log_);
     const double interval_s = frame.time_s - last_time_s_.value_or(frame.time_s);
     last_time_s_ = frame.time_s;
@@ -73,12 +54,12 @@ class System::Impl {
       const auto scope = timer_.time("track");
       people_.begin(frame, tracking_.expected_motion(interval_s));
       std::shared_ptr<const FrameFeatures> features = static_features(frame, depth_time_s - frame.time_s);
-      result = tracking_.track(frame.time_s, std::move(features), mapper_load());
+      result = tracking_.track(frame.time_s, std::move(features), back_end_.load());
       people_.end(tracking_.expected_motion(interval_s), result.state == TrackingState::kTracked);
     }
     count(result.state);
     // After the clock has stopped: mapping in this thread, or waiting for the mapper, is not tracking.
-    if (const KeyFrameId keyframe = tracking_.take_keyframe(); keyframe.valid()) hand_to_mapper(keyframe);
+    if (const KeyFrameId keyframe = tracking_.take_keyframe(); keyframe.valid()) back_end_.add(keyframe);
     return result;
   }
 
@@ -86,9 +67,7 @@ class System::Impl {
     if (finished_) return;
     finished_ = true;
     people_.finish();
-    if (!mapper_) return;
-    mapper_->stop(OnStop::kDrain);
-    mapper_->rethrow_if_failed();
+    back_end_.finish();
   }
 
   [[nodiscard]] Trajectory trajectory() const { return tracking_.trajectory(); }
@@ -104,7 +83,8 @@ class System::Impl {
 
   [[nodiscard]] Statistics statistics() const {
     Statistics statistics = counts_;
-    statistics.local_bundle_adjustments = mapping_.bundle_adjustments();
+    statistics.local_bundle_adjustments = back_end_.local_bundle_adjustments();
+    statistics.loops = back_end_.loop_statistics();
     statistics.people = people_.statistics();
     statistics.stages = timer_.summary();
     const std::shared_lock lock(map_.mutex());
@@ -159,34 +139,6 @@ class System::Impl {
     }
   }
 
-  void hand_to_mapper(KeyFrameId id) {
-    if (!mapper_) {
-      mapping_.process(id, abort_);
-      return;
-    }
-    const auto scope = timer_.time("wait for mapper");
-    // In real time a new keyframe is worth more than the last iterations of the bundle adjustment under way.
-    if (rig_.settings.realtime) abort_ = true;
-    mapper_->push(id);
-    frames_since_keyframe_ = 0;
-  }
-
-  /// Offline frames come as fast as they are tracked, so that many would be placed in a map that the mapper
-  /// is still working on; real time grants it a few frames' time. Wait as if time passed.
-  void let_mapper_catch_up() {
-    if (!mapper_ || rig_.settings.realtime || frames_since_keyframe_++ < kMaxFramesAhead) return;
-    const auto scope = timer_.time("wait for mapper");
-    mapper_->wait_idle();
-  }
-
-  [[nodiscard]] MapperLoad mapper_load() const {
-    // Offline the result must not depend on how fast the machine is.
-    if (!mapper_ || !rig_.settings.realtime) return MapperLoad::kIdle;
-    const std::size_t load = mapper_->load();
-    if (load == 0) return MapperLoad::kIdle;
-    return load < mapper_->capacity() ? MapperLoad::kBusy : MapperLoad::kFull;
-  }
-
   void count(TrackingState state) {
     ++counts_.frames;
     switch (state) {
@@ -212,13 +164,10 @@ class System::Impl {
   std::unique_ptr<Places> places_;
   FrameFeaturesBuilder features_;
   People people_;
-  LocalMapping mapping_;
   Tracking tracking_;
-  std::atomic<bool> abort_ = false;
-  std::optional<Worker<KeyFrameId>> mapper_;
+  BackEnd back_end_;
   Statistics counts_;
   std::optional<double> last_time_s_;
-  std::size_t frames_since_keyframe_ = 0;
   KeypointCandidates* candidates_ = nullptr;  // of the last frame; features_ owns them
   std::vector<std::uint8_t> kept_;            // parallel to them
   bool finished_ = false;

@@ -68,20 +68,32 @@ bool Tracking::initialize(Frame& frame) {
 }
 
 bool Tracking::place(Frame& frame) {
-  {
-    // What the mapper did since the last frame moves that frame's points and pose.
-    const auto scope = timer_.time("track: refresh");
-    refresh_matches(map_, last_);
-    const std::shared_lock lock(map_.mutex());
-    if (const auto reference_from_world = map_.cam_from_world(last_reference_)) {
-      last_.cam_from_world = last_from_reference_ * *reference_from_world;
-    }
+  while (true) {
+    const std::uint64_t corrections = refresh_last();
+    const PlacementPrior prior{last_, last_inliers_, predicted_pose(frame.time_s)};
+    std::optional<Placement> placement = placer_.place(prior, frame);
+    // The frame may have been placed half in the map before and half in the one after a loop was closed.
+    if (corrections != present_corrections()) continue;
+    if (!placement) return false;
+    placement_ = *std::move(placement);
+    return true;
   }
-  const PlacementPrior prior{last_, last_inliers_, predicted_pose(frame.time_s)};
-  std::optional<Placement> placement = placer_.place(prior, frame);
-  if (!placement) return false;
-  placement_ = *std::move(placement);
-  return true;
+}
+
+std::uint64_t Tracking::refresh_last() {
+  // What mapper and loop closing did since the last frame moves that frame's points and pose.
+  const auto scope = timer_.time("track: refresh");
+  const std::shared_lock lock(map_.mutex());
+  const auto reference_from_world = map_.cam_from_world(last_reference_);
+  refresh_frame(map_,
+                reference_from_world ? last_from_reference_ * *reference_from_world : last_.cam_from_world,
+                last_);
+  return map_.corrections();
+}
+
+std::uint64_t Tracking::present_corrections() const {
+  const std::shared_lock lock(map_.mutex());
+  return map_.corrections();
 }
 
 void Tracking::count_visible(const Frame& frame) {

@@ -40,6 +40,9 @@ class Tracking {
  private:
   bool initialize(Frame& frame);
   bool place(Frame& frame);
+  /// Brings the last frame up to date with the map; returns the map's count of corrections.
+  std::uint64_t refresh_last();
+  [[nodiscard]] std::uint64_t present_corrections() const;
   void update_velocity(const Frame& frame);
   void count_visible(const Frame& frame);
   bool should_insert(const Frame& frame, MapperLoad load) const;

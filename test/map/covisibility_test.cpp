@@ -174,5 +174,24 @@ TEST_F(CovisibilityTest, OrphansFindTheBestNewParentWithoutCycles) {
   EXPECT_THAT(map.keyframe(near)->children, ElementsAre(far));
 }
 
+TEST_F(CovisibilityTest, LoopEdgesJoinBothEndsOnceAndKeepThem) {
+  const KeyFrameId root = add();
+  const KeyFrameId a = add();
+  const KeyFrameId b = add();
+  share_points(map, root, a, 20);
+  map.update_covisibility(a);
+  share_points(map, a, b, 20);
+  map.update_covisibility(b);
+  map.add_loop_edge(a, b);
+  map.add_loop_edge(b, a);
+  map.add_loop_edge(a, a);
+  map.add_loop_edge(a, KeyFrameId{});
+  EXPECT_THAT(map.keyframe(a)->loops, ElementsAre(b));
+  EXPECT_THAT(map.keyframe(b)->loops, ElementsAre(a));
+  EXPECT_FALSE(map.erase_keyframe(a));
+  EXPECT_FALSE(map.erase_keyframe(b));
+  EXPECT_EQ(map.n_keyframes(), 3U);
+}
+
 }  // namespace
 }  // namespace cpslam

@@ -172,5 +172,22 @@ TEST(RefreshPoint, DistanceRangeIsWhatThePyramidShowsFromTheReference) {
   EXPECT_NEAR(map.point(point)->max_distance_m, 4.0 * std::pow(1.2, 3), 1e-5);
 }
 
+TEST(RefreshGeometry, IsRefreshPointButForTheDescriptor) {
+  Map map(synthetic::pyramid());
+  const KeyFrameId first = add_keyframe(map, blank_features(1));
+  const KeyFrameId second =
+      add_keyframe(map, blank_features(2), SE3(Eigen::Matrix3d::Identity(), {-1.0, 0.0, 0.0}));
+  const MapPointId point = map.add_point({0.0, 0.0, 2.0}, {first, 0});
+  map.add_observation(point, {second, 1});
+  map.set_position(point, {0.5, 0.2, 2.5});
+  map.refresh_geometry(point);
+  const MapPoint refreshed = *map.point(point);
+  map.refresh_point(point);
+  EXPECT_EQ(refreshed.normal, map.point(point)->normal);
+  EXPECT_EQ(refreshed.max_distance_m, map.point(point)->max_distance_m);
+  EXPECT_EQ(refreshed.min_distance_m, map.point(point)->min_distance_m);
+  EXPECT_EQ(map.point_ids(), std::vector{point});
+}
+
 }  // namespace
 }  // namespace cpslam

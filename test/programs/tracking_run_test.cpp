@@ -11,6 +11,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 void expect_counts_add_up(const nlohmann::json& stats) {
   std::size_t sum = 0;
@@ -117,6 +118,18 @@ TEST(TrackingRun, AssociationsGiveTheSameAsTheLists) {
   const std::string from_lists = TemporaryFolder::content(office.result("CameraTrajectory.txt"));
   ASSERT_EQ(office.track({office.associations(office.pairs()), "--quiet", "--sequential"}).exit_code, 0);
   EXPECT_EQ(TemporaryFolder::content(office.result("CameraTrajectory.txt")), from_lists);
+}
+
+TEST(TrackingRun, LoopsAreLookedForUnlessToldNotTo) {
+  const OfficeSequence office;
+  const ProgramResult bundled = office.track({"--max-frames", "3"});
+  EXPECT_EQ(bundled.exit_code, 0);
+  EXPECT_THAT(bundled.out, HasSubstr("loops       0 closed"));
+  EXPECT_THAT(TemporaryFolder::content(office.result("stats.json")), HasSubstr("\"closed\": 0"));
+  const ProgramResult without = office.track({"--max-frames", "3", "--no-loop"});
+  EXPECT_EQ(without.exit_code, 0);
+  EXPECT_THAT(without.out, Not(HasSubstr("loops ")));
+  EXPECT_THAT(TemporaryFolder::content(office.result("stats.json")), HasSubstr("\"loops\": null"));
 }
 
 TEST(TrackingRun, VocabulariesOfOurOwnAndPublicOnesAreRead) {

@@ -48,11 +48,22 @@ TEST_F(MotionTracker, RefreshFollowsTheMap) {
   const Eigen::Vector3d erased = last.matches[1].position_in_world;
   mapped.map.erase_point(last.matches[1].id);
   mapped.map.set_position(last.matches[2].id, {1.0, 2.0, 3.0});
-  refresh_matches(mapped.map, last);
+  refresh_frame(mapped.map, last.cam_from_world, last);
   EXPECT_EQ(last.matches[0].position_in_world, temporary);
   EXPECT_EQ(last.matches[1].kind, Kind::kTemporary);
   EXPECT_EQ(last.matches[1].position_in_world, erased);
   EXPECT_EQ(last.matches[2].position_in_world, Eigen::Vector3d(1.0, 2.0, 3.0));
+}
+
+TEST_F(MotionTracker, RefreshCarriesTemporaryPointsWithTheCamera) {
+  Frame last = last_frame();
+  add_temporary_points(kRig, last);
+  ASSERT_EQ(last.matches[0].kind, Kind::kTemporary);
+  const Eigen::Vector3d in_camera = last.cam_from_world * last.matches[0].position_in_world;
+  const SE3 corrected = synthetic::moved(last.cam_from_world, {0.3, 0.1, -0.2}, 0.2);
+  refresh_frame(mapped.map, corrected, last);
+  EXPECT_EQ(last.cam_from_world.translation, corrected.translation);
+  EXPECT_TRUE((corrected * last.matches[0].position_in_world).isApprox(in_camera, 1e-12));
 }
 
 TEST_F(MotionTracker, FindsTheMotion) {

@@ -238,7 +238,7 @@ void part_carry_people(benchmark::State& state) {
     const ClipFrame& frame = clip.frames[i];
     std::vector<PersonTrack> tracks = known[i - 1].tracks;
     carry_people(camera,
-                 {known[i].depth_m, known[i].still.free_age, frame.this_from_previous, frame.time_s,
+                 {known[i].depth_m, known[i].still, frame.this_from_previous, frame.time_s,
                   frame.time_s - clip.frames[i - 1].time_s},
                  tracks);
     benchmark::DoNotOptimize(tracks.data());

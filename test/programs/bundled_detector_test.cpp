@@ -35,8 +35,9 @@ class BundledDetector : public testing::Test {
     folder_.write(where + "/models/yc.weights", weights_file(network.weights()));
   }
   [[nodiscard]] ProgramResult track(const std::vector<std::string>& options = {}) const {
-    std::vector<std::string> all{program(),      "-", office_.settings(), office_.path(),
-                                 "--max-frames", "2", "--output",         office_.output()};
+    const fs::path vocabulary = fs::path(RGBD_TUM_PATH).parent_path() / "Vocabulary/cpslam.voc";
+    std::vector<std::string> all{program(),      vocabulary, office_.settings(), office_.path(),
+                                 "--max-frames", "2",        "--output",         office_.output()};
     all.insert(all.end(), options.begin(), options.end());
     return run_program(all);
   }

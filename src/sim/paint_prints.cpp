@@ -240,7 +240,7 @@ cv::Mat paint_notice_board(Random& random) {
     cv::Mat sheet = i % 3 == 2 ? paint_poster(random) : paint_paper(random);
     const int height = 130 + pick(random, 40);
     cv::resize(sheet, sheet, {height * 7 / 10, height}, 0, 0, cv::INTER_AREA);
-    const int x = 16 + (i % 5) * 124 + pick(random, 12);
+    const int x = std::min(16 + (i % 5) * 124 + pick(random, 12), image.cols - sheet.cols);
     const int y = 16 + (i / 5) * 212 + pick(random, 40);
     sheet.copyTo(image({x, y, sheet.cols, sheet.rows}));
     cv::circle(image, {x + sheet.cols / 2, y + 8}, 5, random_colour(random, 30, 220), cv::FILLED,

@@ -10,6 +10,7 @@
 #include "io/image_reader.h"
 #include "io/tum_sequence.h"
 #include "sim/simulation.h"
+#include "util/median.h"
 
 namespace cpslam {
 namespace {
@@ -38,12 +39,6 @@ Clip load_clip() {
     clip.frames.push_back({frame.time_s, frame.time_s, frame.colour_bgr, frame.depth, {}});
   }
   return clip;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // Both benchmarks go over the whole clip once and report the median time of a frame, so that their ratio is

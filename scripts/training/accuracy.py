@@ -6,6 +6,8 @@ import cv2
 import numpy as np
 import torch
 
+from cpslam_tools.detection import precision_recall
+
 from .boxes import overlaps, to_xyxy
 from .pictures import letterbox
 
@@ -74,14 +76,10 @@ def share_inside(box, areas):
 
 def average_precision(scores, verdicts, n_truth):
     """The area under the envelope, and recall and precision after each score, highest first."""
-    order = np.argsort(-scores, kind="stable")
-    order = order[verdicts[order] >= 0]
-    right = np.cumsum(verdicts[order] == 1)
-    recall = right / max(n_truth, 1)
-    precision = right / np.arange(1, len(order) + 1)
-    envelope = np.maximum.accumulate(precision[::-1])[::-1] if len(order) else precision
-    area = float((np.diff(recall, prepend=0.0) * envelope).sum())
-    return area, scores[order], recall, precision
+    counted = verdicts >= 0
+    points = precision_recall.curve(scores[counted], verdicts[counted] == 1, n_truth)
+    area = precision_recall.average_precision(points, n_truth) or 0.0
+    return area, points.thresholds, points.recall, points.precision
 
 
 def measure(network, records, pictures, width, height, threshold=0.3):
@@ -96,7 +94,7 @@ def measure(network, records, pictures, width, height, threshold=0.3):
     area, ranked, recall, precision = average_precision(np.concatenate(scores), np.concatenate(verdicts), n_truth)
     if not len(ranked):
         return Accuracy(0.0, 0.0, 0.0, threshold, threshold)
-    balance = 2 * recall * precision / np.maximum(recall + precision, 1e-9)
+    _, best_threshold = precision_recall.best_f1(precision_recall.Curve(ranked, precision, recall))
     last = np.searchsorted(-ranked, -threshold, "right") - 1
     return Accuracy(area, float(recall[last]) if last >= 0 else 0.0, float(precision[last]) if last >= 0 else 0.0,
-                    threshold, float(ranked[balance.argmax()]))
+                    threshold, best_threshold)

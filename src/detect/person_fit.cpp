@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -84,26 +83,22 @@ class Fitter {
 
   /// What is in front of him stays free: another box may show whose it is.
   void take(const PersonFit& fit) {
-    std::vector<int> body;
-    std::set_difference(fit.cells.begin(), fit.cells.end(), fit.front.begin(), fit.front.end(),
-                        std::back_inserter(body));
-    for (const int cell : body) taken_(cell) = 1;
+    for (const int cell : fit.cells) {
+      if (!is_in_front(fit, cell)) taken_(cell) = 1;
+    }
   }
   /// Takes from somebody what is in front of him and turned out to be another one's.
   void give_up_front(PersonFit& fit) const {
-    std::vector<int> others;
-    std::copy_if(fit.front.begin(), fit.front.end(), std::back_inserter(others),
-                 [this](int cell) { return taken_(cell) != 0; });
-    std::vector<int> left;
-    std::set_difference(fit.cells.begin(), fit.cells.end(), others.begin(), others.end(),
-                        std::back_inserter(left));
-    fit.cells = std::move(left);
+    std::erase_if(fit.cells, [&](int cell) { return taken_(cell) != 0 && is_in_front(fit, cell); });
   }
   [[nodiscard]] float taken_share(const std::vector<int>& cells) const {
     return share_of(cells, [this](int cell) { return taken_(cell) != 0; });
   }
 
  private:
+  static bool is_in_front(const PersonFit& fit, int cell) {
+    return std::binary_search(fit.front.begin(), fit.front.end(), cell);
+  }
   [[nodiscard]] std::vector<DepthSample> gather_samples(const KnownBox& known_box, const cv::Rect& area,
                                                         const PlacePrior& prior) const {
     std::vector<DepthSample> samples;

@@ -86,8 +86,10 @@ void PersonGrowth::add_limbs(const cv::Rect& box_cells, int piece_number, bool h
       const float depth_m = mean_depth_m(piece);
       const bool in_front = depth_m < model_.mean_m - kNearerM;
       const bool as_large = static_cast<float>(piece.size()) > kMaxArmShare * static_cast<float>(body_cells);
-      if (!(moves(piece) && !(in_front && as_large)) && !(he_moves && is_limb(piece, depth_m, body_cells)))
-        continue;
+      const bool is_somebody_else = in_front && as_large;
+      const bool is_his =
+          (moves(piece) && !is_somebody_else) || (he_moves && is_limb(piece, depth_m, body_cells));
+      if (!is_his) continue;
       surface.cells.insert(surface.cells.end(), piece.begin(), piece.end());
       if (in_front) surface.front.insert(surface.front.end(), piece.begin(), piece.end());
     }

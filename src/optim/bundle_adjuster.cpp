@@ -6,13 +6,12 @@
 #include <deque>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "ceres/loss_function.h"
 #include "ceres/ordered_groups.h"
-#include "ceres/problem.h"
-#include "ceres/solver.h"
 #include "cpslam/error.h"
-#include "optim/abort_callback.h"
+#include "optim/ceres_run.h"
 #include "optim/reprojection.h"
 #include "optim/reprojection_cost.h"
 
@@ -97,7 +96,6 @@ class BundleRound {
   /// Iterations done.
   int solve(const BundleOptions& options, int max_iterations) {
     if (ceres_problem_.NumResidualBlocks() == 0 || max_iterations <= 0) return 0;
-    AbortCallback callback(options.abort);
     ceres::Solver::Options solver;
     // Without a free pose there is no Schur complement; Ceres then turns the sparse kind, and only that one,
     // into a solver that knows the points to be independent.
@@ -107,22 +105,16 @@ class BundleRound {
     solver.max_num_iterations = max_iterations;
     solver.function_tolerance = options.function_tolerance;
     solver.num_threads = options.threads;
-    solver.logging_type = ceres::SILENT;
-    solver.callbacks.push_back(&callback);
-    ceres::Solver::Summary summary;
-    ceres::Solve(solver, &ceres_problem_, &summary);
+    const ceres::Solver::Summary summary = run_ceres(std::move(solver), options.abort, ceres_problem_);
     write_back();
-    return std::max(0, static_cast<int>(summary.iterations.size()) - 1);  // Ceres counts the start as one
+    return iterations_of(summary);
   }
 
  private:
   using PoseBlock = std::array<double, PoseManifold::kAmbient>;
 
   static ceres::Problem::Options problem_options() {
-    ceres::Problem::Options options;
-    options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    ceres::Problem::Options options = borrowing_problem_options();
     options.disable_all_safety_checks = true;  // every block is added once, from arrays of our own
     return options;
   }

@@ -7,12 +7,11 @@
 #include <deque>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "ceres/loss_function.h"
-#include "ceres/problem.h"
-#include "ceres/solver.h"
 #include "cpslam/error.h"
-#include "optim/abort_callback.h"
+#include "optim/ceres_run.h"
 #include "optim/relative_pose_cost.h"
 
 namespace cpslam {
@@ -85,7 +84,9 @@ std::vector<std::uint8_t> held_poses(const PoseGraph& graph) {
 class Solve {
  public:
   Solve(const PoseGraph& graph, bool robust)
-      : poses_(graph.cam_from_world.size()), used_(poses_.size()), ceres_problem_(problem_options()) {
+      : poses_(graph.cam_from_world.size()),
+        used_(poses_.size()),
+        ceres_problem_(borrowing_problem_options()) {
     for (std::size_t e = 0; e < graph.edges.size(); ++e) {
       const PoseGraph::Edge& edge = graph.edges[e];
       ceres_problem_.AddResidualBlock(&costs_.emplace_back(edge.b_from_a, root_of(graph, e)),
@@ -104,17 +105,12 @@ class Solve {
   }
 
   ceres::Solver::Summary run(const PoseGraphOptions& options) {
-    AbortCallback callback(options.abort);
     ceres::Solver::Options solver;
     solver.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
     solver.max_num_iterations = options.iterations;
     solver.function_tolerance = options.function_tolerance;
     solver.num_threads = options.threads;
-    solver.logging_type = ceres::SILENT;
-    solver.callbacks.push_back(&callback);
-    ceres::Solver::Summary summary;
-    ceres::Solve(solver, &ceres_problem_, &summary);
-    return summary;
+    return run_ceres(std::move(solver), options.abort, ceres_problem_);
   }
 
   void write_back(PoseGraph& graph) const {
@@ -124,14 +120,6 @@ class Solve {
   }
 
  private:
-  static ceres::Problem::Options problem_options() {
-    ceres::Problem::Options options;
-    options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-    return options;
-  }
-
   double* block(const PoseGraph& graph, int index) {
     const auto i = static_cast<std::size_t>(index);
     if (used_[i] == 0) write_pose_block(graph.cam_from_world[i], poses_[i].data());
@@ -158,8 +146,7 @@ PoseGraphResult optimize_pose_graph(PoseGraph& graph, const PoseGraphOptions& op
   result.aborted = is_raised(options.abort);
   result.initial_cost = summary.initial_cost;
   result.final_cost = summary.final_cost;
-  result.iterations =
-      std::max(0, static_cast<int>(summary.iterations.size()) - 1);  // the start counts as one
+  result.iterations = iterations_of(summary);
   // Poses go through a quaternion on their way; one that did not move comes back as it was.
   if (summary.final_cost < summary.initial_cost) solve.write_back(graph);
   return result;

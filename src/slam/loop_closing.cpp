@@ -13,9 +13,8 @@ namespace {
 // After a loop the next keyframes see the same two sides, which are one by now.
 constexpr std::uint64_t kRestKeyframes = 10;
 
-/// What a keyframe shows, and whom tracking knows to show the same.
+/// When a keyframe came, and which others tracking knows to show the same.
 struct View {
-  std::shared_ptr<const FrameFeatures> features;
   std::uint64_t sequence = 0;
   std::vector<KeyFrameId> connected;
 };
@@ -24,7 +23,7 @@ std::optional<View> view_of(const Map& map, KeyFrameId id) {
   const std::shared_lock lock(map.mutex());
   const KeyFrame* keyframe = map.keyframe(id);
   if (keyframe == nullptr) return std::nullopt;
-  return View{keyframe->features, keyframe->sequence, map.best_covisible(id, keyframe->covisible.size())};
+  return View{keyframe->sequence, map.best_covisible(id, keyframe->covisible.size())};
 }
 
 }  // namespace
@@ -37,7 +36,7 @@ std::optional<VerifiedLoop> LoopClosing::find(KeyFrameId keyframe) {
   std::vector<KeyFrameId> consistent;
   {
     const auto scope = timer_.time("loop: detection");
-    consistent = consistency_.update(map_, alike_places(keyframe, *words));
+    consistent = consistency_.update(map_, alike_places(keyframe, view->connected, *words));
   }
   for (const KeyFrameId candidate : consistent) {
     const auto scope = timer_.time("loop: verification");
@@ -49,15 +48,15 @@ std::optional<VerifiedLoop> LoopClosing::find(KeyFrameId keyframe) {
   return std::nullopt;
 }
 
-std::vector<KeyFrameId> LoopClosing::alike_places(KeyFrameId keyframe, const ImageWords& words) const {
-  const std::optional<View> view = view_of(map_, keyframe);
-  if (!view) return {};
+std::vector<KeyFrameId> LoopClosing::alike_places(KeyFrameId keyframe,
+                                                  const std::vector<KeyFrameId>& connected,
+                                                  const ImageWords& words) const {
   PlaceQuery query;
-  query.excluded = view->connected;
+  query.excluded = connected;
   query.excluded.push_back(keyframe);
   // What looks less alike than the keyframes around does tells nothing.
   query.min_score = 1.0;
-  for (const KeyFrameId neighbour : view->connected) {
+  for (const KeyFrameId neighbour : connected) {
     if (const auto its_words = places_.database.words(neighbour)) {
       query.min_score = std::min(query.min_score, score(words.bow, its_words->bow));
     }

@@ -42,7 +42,9 @@ class LoopClosing {
   [[nodiscard]] LoopStatistics statistics() const;
 
  private:
-  [[nodiscard]] std::vector<KeyFrameId> alike_places(KeyFrameId keyframe, const ImageWords& words) const;
+  [[nodiscard]] std::vector<KeyFrameId> alike_places(KeyFrameId keyframe,
+                                                     const std::vector<KeyFrameId>& connected,
+                                                     const ImageWords& words) const;
 
   const Rig& rig_;
   Map& map_;

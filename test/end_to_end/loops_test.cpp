@@ -8,6 +8,7 @@
 #include "end_to_end/clip.h"
 #include "geometry/se3.h"
 #include "io/trajectory_error.h"
+#include "support/half_size.h"
 
 namespace cpslam::e2e {
 namespace {
@@ -20,15 +21,8 @@ Clip render_small(const std::string& preset, double seconds) {
   options.seed = 1;
   options.sensor_noise = true;
   options.n_frames = static_cast<int>(seconds * kFps);
-  CameraSettings& camera = options.camera;
-  camera.fps = kFps;
-  camera.width /= 2;
-  camera.height /= 2;
-  camera.fx /= 2.0;
-  camera.fy /= 2.0;
-  camera.cx = (camera.cx - 0.5) / 2.0;
-  camera.cy = (camera.cy - 0.5) / 2.0;
-  camera.bf /= 2.0;
+  options.camera.fps = kFps;
+  test::halve(options.camera);
   Clip clip = render_clip(options);
   clip.settings.vocabulary = CPSLAM_SOURCE_DIR "/Vocabulary/cpslam.voc";
   return clip;

@@ -14,15 +14,7 @@ using scene::kRig;
 class FullBundleTest : public testing::Test {
  protected:
   FullBundleTest() : mapped(400, row_to_the_origin(), {.depth_share = 0.8, .noise_px = 0.2}, random) {
-    for (std::size_t k = 1; k < mapped.keyframes.size(); ++k) {
-      const SE3 error(so3_exp(0.01 * Eigen::Vector3d(random.normal(), random.normal(), random.normal())),
-                      0.02 * Eigen::Vector3d(random.normal(), random.normal(), random.normal()));
-      mapped.map.set_pose(mapped.keyframes[k], error * mapped.views[k].cam_from_world);
-    }
-    for (std::size_t p = 0; p < mapped.points.size(); ++p) {
-      const Eigen::Vector3d error(random.normal(), random.normal(), random.normal());
-      mapped.map.set_position(mapped.points[p], mapped.world.points[p] + 0.02 * error);
-    }
+    mapped.disturb(random);
   }
   /// The last camera sees all points, the first one the fewest.
   static std::vector<SE3> row_to_the_origin() {

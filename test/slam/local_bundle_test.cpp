@@ -17,18 +17,6 @@ class LocalBundle : public testing::Test {
  protected:
   LocalBundle() : mapped(300, scene::row_of_poses(5, 0.15), {.depth_share = 0.8, .noise_px = 0.2}, random) {}
 
-  /// Moves all keyframes but the first and all points off their places.
-  void disturb() {
-    for (std::size_t k = 1; k < mapped.keyframes.size(); ++k) {
-      const SE3 error(so3_exp(0.01 * Eigen::Vector3d(random.normal(), random.normal(), random.normal())),
-                      0.02 * Eigen::Vector3d(random.normal(), random.normal(), random.normal()));
-      mapped.map.set_pose(mapped.keyframes[k], error * mapped.views[k].cam_from_world);
-    }
-    for (std::size_t p = 0; p < mapped.points.size(); ++p) {
-      const Eigen::Vector3d error(random.normal(), random.normal(), random.normal());
-      mapped.map.set_position(mapped.points[p], mapped.world.points[p] + 0.02 * error);
-    }
-  }
   [[nodiscard]] double worst_pose_error() const {
     double worst = 0.0;
     for (std::size_t k = 0; k < mapped.keyframes.size(); ++k) {
@@ -45,7 +33,7 @@ class LocalBundle : public testing::Test {
 };
 
 TEST_F(LocalBundle, RecoversADisturbedMap) {
-  disturb();
+  mapped.disturb(random);
   ASSERT_GT(worst_pose_error(), 0.02);
   adjust_local_bundle(kRig, mapped.map, mapped.keyframes.back(), go_on);
   EXPECT_LT(worst_pose_error(), 0.003);
@@ -58,7 +46,7 @@ TEST_F(LocalBundle, RecoversADisturbedMap) {
 }
 
 TEST_F(LocalBundle, TheFirstKeyFrameStaysBitByBit) {
-  disturb();
+  mapped.disturb(random);
   const SE3 before = mapped.map.keyframe(mapped.keyframes[0])->cam_from_world;
   adjust_local_bundle(kRig, mapped.map, mapped.keyframes[2], go_on);
   const SE3 after = mapped.map.keyframe(mapped.keyframes[0])->cam_from_world;
@@ -67,7 +55,7 @@ TEST_F(LocalBundle, TheFirstKeyFrameStaysBitByBit) {
 }
 
 TEST_F(LocalBundle, RefreshesWhatDependsOnPositions) {
-  disturb();
+  mapped.disturb(random);
   adjust_local_bundle(kRig, mapped.map, mapped.keyframes.back(), go_on);
   const MapPoint& point = *mapped.map.point(mapped.points[0]);
   const float distance_m = point.max_distance_m;
@@ -102,7 +90,7 @@ TEST_F(LocalBundle, ObservationsThatDisagreeGo) {
 TEST_F(LocalBundle, WhatIsErasedMeanwhileStaysErased) {
   // Another thread takes points and keyframes away while the solver works. Whenever it comes in, before,
   // during or after, the map must be sound in the end.
-  disturb();
+  mapped.disturb(random);
   std::jthread eraser([this] {
     for (std::size_t p = 0; p < 100; ++p) {
       const std::unique_lock lock(mapped.map.mutex());
@@ -118,7 +106,7 @@ TEST_F(LocalBundle, WhatIsErasedMeanwhileStaysErased) {
 }
 
 TEST_F(LocalBundle, AbortLeavesASoundMap) {
-  disturb();
+  mapped.disturb(random);
   const double before = worst_pose_error();
   const std::atomic<bool> abort = true;
   adjust_local_bundle(kRig, mapped.map, mapped.keyframes.back(), abort);

@@ -62,6 +62,19 @@ struct MappedWorld {
     return id;
   }
 
+  /// Moves all keyframes but the first and all points off their places.
+  void disturb(Random& random) {
+    for (std::size_t k = 1; k < keyframes.size(); ++k) {
+      const SE3 error(so3_exp(0.01 * Eigen::Vector3d(random.normal(), random.normal(), random.normal())),
+                      0.02 * Eigen::Vector3d(random.normal(), random.normal(), random.normal()));
+      map.set_pose(keyframes[k], error * views[k].cam_from_world);
+    }
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const Eigen::Vector3d error(random.normal(), random.normal(), random.normal());
+      map.set_position(points[p], world.points[p] + 0.02 * error);
+    }
+  }
+
   /// A frame at `pose`, without matches.
   Frame frame_at(const SE3& pose, const synthetic::ViewOptions& options, Random& random) {
     return make_frame(synthetic::look(world, pose, options, random));

@@ -4,6 +4,7 @@
 
 #include "cpslam/system.h"
 #include "sim/simulation.h"
+#include "support/half_size.h"
 
 namespace cpslam::test {
 
@@ -14,14 +15,7 @@ struct SimulatedFrames {
     options.preset = preset;
     options.n_frames = n;
     options.start_s = 2.0;
-    CameraSettings& camera = options.camera;
-    camera.width /= 2;
-    camera.height /= 2;
-    camera.fx /= 2.0;
-    camera.fy /= 2.0;
-    camera.cx = (camera.cx - 0.5) / 2.0;
-    camera.cy = (camera.cy - 0.5) / 2.0;
-    camera.bf /= 2.0;
+    halve(options.camera);
     sim::Simulation simulation(options);
     settings = simulation.settings();
     settings.orb.n_features = 500;

@@ -1,9 +1,7 @@
 """A camera that is covered, carried elsewhere and uncovered where it has been before: sequences and their judgement."""
 
-import contextlib
 import math
 import os
-import shutil
 import struct
 import zlib
 
@@ -12,14 +10,14 @@ import numpy as np
 from ..alignment import align_rigidly
 from ..errors import InputError
 from ..trajectory import read_trajectory, rotation_angles, rotation_matrices
-from .sequences import Sequence, rows_of
+from .sequences import RearrangedSequence
 
 INTERVAL_S = 1.0 / 30.0
 SIZE = (640, 480)
 COVERED_COLOUR, COVERED_DEPTH = "covered_colour.png", "covered_depth.png"
 
 
-class KidnappedSequence(Sequence):
+class KidnappedSequence(RearrangedSequence):
     """Frames 0 to n_map - 1 of a source that passes everywhere twice, then `kidnaps` times: n_covered black frames and
     n_back frames from a random place of the second pass, which begins at second_pass, never near the one before. With
     n_map below second_pass the rest is not mapped. Stamps go on as if nothing were.
@@ -27,9 +25,7 @@ class KidnappedSequence(Sequence):
     visits: [(stamp of the first frame, stamp of the last)] of each coming back, once the sequence is ready."""
 
     def __init__(self, source, work_dir, n_map, second_pass, kidnaps, n_covered, n_back, seed):
-        super().__init__(f"{source.name}, {kidnaps} kidnaps", os.path.join(
-            work_dir, os.path.basename(source.directory) + "_kidnapped"), source.settings)
-        self.source = source
+        super().__init__(source, work_dir, f"{kidnaps} kidnaps", "kidnapped")
         self.n_map = n_map
         self.second_pass = second_pass
         self.kidnaps = kidnaps
@@ -43,20 +39,8 @@ class KidnappedSequence(Sequence):
         """Stamp of the first covered frame."""
         return self.visits[0][0] - (self.n_covered + 0.5) * INTERVAL_S
 
-    @contextlib.contextmanager
-    def ready(self):
-        with self.source.ready():
-            shutil.rmtree(self.directory, ignore_errors=True)
-            os.makedirs(self.directory)
-            try:
-                self._write()
-                yield self
-            finally:
-                shutil.rmtree(self.directory, ignore_errors=True)
-
     def _write(self):
-        colour, depth, truth = (rows_of(os.path.join(self.source.directory, name))
-                                for name in ("rgb.txt", "depth.txt", "groundtruth.txt"))
+        colour, depth, truth = (self._rows(name) for name in ("rgb.txt", "depth.txt", "groundtruth.txt"))
         # The simulator stamps all three alike.
         if not len(colour) == len(depth) == len(truth):
             raise InputError(f"{self.source.directory}: colour, depth and ground truth are not of the same frames")
@@ -76,7 +60,7 @@ class KidnappedSequence(Sequence):
         write_black_png(os.path.join(self.directory, COVERED_COLOUR), SIZE, bits=8)
         write_black_png(os.path.join(self.directory, COVERED_DEPTH), SIZE, bits=16)
         for folder in ("rgb", "depth"):
-            os.symlink(os.path.abspath(os.path.join(self.source.directory, folder)), os.path.join(self.directory, folder))
+            self._link(folder)
 
         first = colour[0][0] + (self.n_map + self.n_covered) * INTERVAL_S
         period = (self.n_covered + self.n_back) * INTERVAL_S

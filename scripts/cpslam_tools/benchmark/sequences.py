@@ -82,14 +82,15 @@ class SimulatedSequence(Sequence):
             raise InputError(f"simulate_tum {self.preset}: {finished.error}")
 
 
-class RepeatedSequence(Sequence):
-    """Another sequence forwards, backwards, forwards, ...: many rounds of one room without a jump between them."""
+class RearrangedSequence(Sequence):
+    """Made of another sequence's frames when it is needed, and removed after: lists of its own, the pictures linked.
 
-    def __init__(self, source, work_dir, rounds):
-        directory = os.path.join(work_dir, os.path.basename(source.directory) + f"_{rounds}_rounds")
-        super().__init__(f"{source.name}, {rounds} rounds", directory, source.settings)
+    what: added to the source's name; suffix: to its folder's."""
+
+    def __init__(self, source, work_dir, what, suffix):
+        directory = os.path.join(work_dir, f"{os.path.basename(source.directory)}_{suffix}")
+        super().__init__(f"{source.name}, {what}", directory, source.settings)
         self.source = source
-        self.rounds = rounds
 
     @contextlib.contextmanager
     def ready(self):
@@ -103,6 +104,23 @@ class RepeatedSequence(Sequence):
                 shutil.rmtree(self.directory, ignore_errors=True)
 
     def _write(self):
+        raise NotImplementedError
+
+    def _rows(self, name):
+        return rows_of(os.path.join(self.source.directory, name))
+
+    def _link(self, folder):
+        os.symlink(os.path.abspath(os.path.join(self.source.directory, folder)), os.path.join(self.directory, folder))
+
+
+class RepeatedSequence(RearrangedSequence):
+    """Another sequence forwards, backwards, forwards, ...: many rounds of one room without a jump between them."""
+
+    def __init__(self, source, work_dir, rounds):
+        super().__init__(source, work_dir, f"{rounds} rounds", f"{rounds}_rounds")
+        self.rounds = rounds
+
+    def _write(self):
         colour = self._rows("rgb.txt")
         begin, end = colour[0][0], colour[-1][0]
         period = end - begin + (end - begin) / max(len(colour) - 1, 1)
@@ -112,11 +130,7 @@ class RepeatedSequence(Sequence):
                 for stamp, fields in repeated(rows, begin, end, period, self.rounds):
                     file.write(f"{stamp:.6f} {' '.join(fields)}\n")
         for folder in {os.path.dirname(fields[0]) for _, fields in colour + self._rows("depth.txt")}:
-            os.symlink(os.path.abspath(os.path.join(self.source.directory, folder)),
-                       os.path.join(self.directory, folder))
-
-    def _rows(self, name):
-        return rows_of(os.path.join(self.source.directory, name))
+            self._link(folder)
 
 
 def rows_of(path):

@@ -10,10 +10,6 @@
 namespace cpslam {
 namespace {
 
-constexpr float kWindowPx = 32.0F;
-constexpr float kDepthWindowM = 0.4F;
-constexpr int kMaxDistance = 64;  // of descriptors, bits
-constexpr float kRatio = 0.85F;   // to the second best
 constexpr std::size_t kMinMatches = 4;
 constexpr float kAgreeM = 0.06F;     // with the median displacement
 constexpr float kKeypointPx = 1.0F;  // how well a keypoint is localised
@@ -28,63 +24,6 @@ Eigen::Vector3f median_by_axis(const std::vector<Eigen::Vector3f>& vectors) {
   }
   return result;
 }
-
-class Flow {
- public:
-  Flow(const GridCamera& camera, const FlowKeypoints& current) : camera_(camera), current_(current) {
-    for (std::size_t i = 0; i < current.keypoints.size(); ++i) {
-      if (current.keypoints[i].depth_m > 0.0F) by_row_.push_back(i);
-    }
-    std::sort(by_row_.begin(), by_row_.end(), [&current](std::size_t a, std::size_t b) {
-      return current.keypoints[a].y < current.keypoints[b].y;
-    });
-  }
-
-  [[nodiscard]] Eigen::Vector3f lift(const DepthKeypoint& k) const {
-    const Eigen::Vector2d px(static_cast<double>(k.x), static_cast<double>(k.y));
-    const PinholeCamera& camera = camera_.camera();
-    return camera
-        .back_project(camera.has_distortion() ? camera.undistort(px) : px, static_cast<double>(k.depth_m))
-        .cast<float>();
-  }
-
-  /// Index of the keypoint that looks like `descriptor` near an expected place, -1 when none or several do.
-  [[nodiscard]] int find(const Eigen::Vector3f& expected, const Descriptor& descriptor) const {
-    const PinholeCamera& camera = camera_.camera();
-    Eigen::Vector2d px = camera.project(expected.cast<double>());
-    if (camera.has_distortion()) px = camera.distort(px);
-    const auto x = static_cast<float>(px.x());
-    const auto y = static_cast<float>(px.y());
-    int best = -1;
-    int best_distance = kMaxDistance + 1;
-    int second_distance = 256;
-    const auto above = [&](std::size_t i) { return current_.keypoints[i].y - y < -kWindowPx; };
-    for (auto at = std::partition_point(by_row_.begin(), by_row_.end(), above); at != by_row_.end(); ++at) {
-      const std::size_t i = *at;
-      const DepthKeypoint& k = current_.keypoints[i];
-      if (k.y - y > kWindowPx) break;
-      if (std::abs(k.x - x) > kWindowPx || std::abs(k.depth_m - expected.z()) > kDepthWindowM) continue;
-      const int distance = descriptor_distance(descriptor, current_.descriptors[i]);
-      if (distance < best_distance) {
-        second_distance = best_distance;
-        best_distance = distance;
-        best = static_cast<int>(i);
-      } else {
-        second_distance = std::min(second_distance, distance);
-      }
-    }
-    return static_cast<float>(best_distance) < kRatio * static_cast<float>(second_distance) ? best : -1;
-  }
-
-  [[nodiscard]] Eigen::Vector3f point(int i) const {
-    return lift(current_.keypoints[static_cast<std::size_t>(i)]);
-  }
-
- private:
-  const GridCamera& camera_;
-  const FlowKeypoints& current_;
-  std::vector<std::size_t> by_row_;  // keypoints with depth, from the top down
-};
 
 /// Displacements of a person's keypoints, and the sum of their depths.
 struct Displacements {
@@ -117,7 +56,7 @@ void follow_keypoints(const GridCamera& camera, const FlowKeypoints& previous,
                       const cv::Mat1b& previous_people, const FlowKeypoints& current,
                       const SE3& this_from_previous, double dt_s, std::vector<PersonTrack>& tracks) {
   if (tracks.empty() || dt_s <= 0.0) return;
-  const Flow flow(camera, current);
+  const KeypointFlow flow(camera.camera(), current);
   const FloatTransform move(this_from_previous);
   std::vector<Displacements> displacements(tracks.size());
   for (std::size_t i = 0; i < previous.keypoints.size(); ++i) {
@@ -127,13 +66,13 @@ void follow_keypoints(const GridCamera& camera, const FlowKeypoints& previous,
     const auto track = std::find_if(tracks.begin(), tracks.end(),
                                     [&](const PersonTrack& t) { return t.number == previous_people(cell); });
     if (track == tracks.end()) continue;
-    const Eigen::Vector3f unmoved = move * flow.lift(k);
+    const Eigen::Vector3f unmoved = move * lift(camera.camera(), k);
     const Eigen::Vector3f expected = unmoved + track->velocity_m_per_s * static_cast<float>(dt_s);
-    if (expected.z() <= 0.1F) continue;
     const int match = flow.find(expected, previous.descriptors[i]);
     if (match < 0) continue;
     Displacements& his = displacements[static_cast<std::size_t>(track - tracks.begin())];
-    his.moved.emplace_back(flow.point(match) - unmoved);
+    his.moved.emplace_back(lift(camera.camera(), current.keypoints[static_cast<std::size_t>(match)]) -
+                           unmoved);
     his.depth_sum_m += k.depth_m;
   }
   for (std::size_t t = 0; t < tracks.size(); ++t)

@@ -1,21 +1,13 @@
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "detect/grid_camera.h"
-#include "detect/person_fit.h"
+#include "detect/keypoint_flow.h"
 #include "detect/person_track.h"
-#include "features/descriptor.h"
 #include "geometry/se3.h"
 
 namespace cpslam {
-
-/// The keypoints of a frame, those on people included. The vectors are parallel.
-struct FlowKeypoints {
-  std::vector<DepthKeypoint> keypoints;
-  std::vector<Descriptor> descriptors;
-};
 
 /// Measures how each person moved between two frames from the flow of the keypoints on him: matched by
 /// appearance near where he is expected, lifted by their depths, freed of the camera's motion; the median of

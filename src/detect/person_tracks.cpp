@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <utility>
 
+#include "detect/camera_motion.h"
 #include "detect/moving_blobs.h"
 #include "detect/person_carry.h"
 #include "detect/person_confirm.h"
+#include "detect/person_flow.h"
 
 namespace cpslam {
 namespace {
 
 constexpr double kMostImageMotionPx = 40.0;
+constexpr double kMotionAsExpectedPx = 1.0;
 // Rims that a wrong motion, the shutter and the depth image's own instant let seem to arrive.
 constexpr double kMotionPxPerRimCell = 3.0;
 
@@ -41,7 +44,23 @@ void PersonTracks::begin_frame(std::uint64_t frame, double time_s, const cv::Mat
 
 void PersonTracks::set_keypoints(FlowKeypoints keypoints) {
   frames_.back().keypoints = std::move(keypoints);
+  measure_motion();
   follow_into(frames_.size() - 1);
+}
+
+void PersonTracks::measure_motion() {
+  if (frames_.size() < 2) return;
+  FrameState& state = frames_.back();
+  const FrameState& previous = frames_[frames_.size() - 2];
+  const std::optional<SE3> motion =
+      measure_camera_motion(camera_, previous.keypoints, paint_people(previous.tracks, camera_.size()),
+                            state.keypoints, state.this_from_previous);
+  if (!motion) return;
+  const SE3 unexpected = *motion * state.this_from_previous.inverse();
+  if (image_motion_px(camera_, unexpected) < kMotionAsExpectedPx) return;
+  state.this_from_previous = *motion;
+  carry_still_surface(frames_.size() - 1);
+  carry_into(frames_.size() - 1);
 }
 
 void PersonTracks::add_detections(const Detections& detections) {

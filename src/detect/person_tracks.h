@@ -7,7 +7,7 @@
 
 #include "detect/detections.h"
 #include "detect/grid_camera.h"
-#include "detect/person_flow.h"
+#include "detect/keypoint_flow.h"
 #include "detect/person_track.h"
 #include "detect/still_surface.h"
 #include "geometry/se3.h"
@@ -17,7 +17,7 @@ namespace cpslam {
 
 /// What is known of people from frame to frame, detections or not. Every frame goes through:
 ///  - begin_frame: everybody is carried into the new depths; labels() is a prediction good for the extractor;
-///  - set_keypoints: their flow corrects the velocities;
+///  - set_keypoints: their flow corrects the camera's motion (measure_camera_motion), and the velocities;
 ///  - add_detections: boxes of this frame or of an earlier one, then time is wound back to it and played
 ///  again;
 ///  - end_frame: the camera's motion as it was found in the end; it shows what else moves.
@@ -61,6 +61,8 @@ class PersonTracks {
     std::vector<PersonTrack> carried;  // before its boxes
     std::vector<PersonTrack> tracks;   // after
   };
+  /// Corrects the motion of the newest frame by its keypoints.
+  void measure_motion();
   void carry_into(std::size_t index);
   void follow_into(std::size_t index);
   void apply_boxes(FrameState& state);

@@ -326,38 +326,75 @@ TEST(PersonTracks, IgnoreBoxesThatAreNone) {
   EXPECT_GT(film.iou(tracks, 0), 0.7);
 }
 
+/// Points all over the first frame of a film, and where they are seen later: those on the person move along
+/// with him.
+class FilmKeypoints {
+ public:
+  FilmKeypoints(const Film& film, const Person& person) : velocity_(person.velocity_m_per_s.cast<double>()) {
+    const GridCamera grid(camera_);
+    Random random(3);
+    for (const DepthKeypoint& k : scene::keypoints_on(film.views[0], 2)) {
+      if (k.depth_m <= 0.0F) continue;
+      points_.push_back(camera_.back_project({double(k.x), double(k.y)}, double(k.depth_m)));
+      on_person_.push_back(film.views[0].owner(grid.cell_of_pixel(k.x, k.y)) == person.number);
+      looks_.push_back(synthetic::random_descriptor(random));
+    }
+  }
+  [[nodiscard]] auto n_on_person() const { return std::count(on_person_.begin(), on_person_.end(), true); }
+  /// this_from_first: of the camera.
+  [[nodiscard]] FlowKeypoints seen(double time_s, const SE3& this_from_first) const {
+    FlowKeypoints keypoints;
+    for (std::size_t p = 0; p < points_.size(); ++p) {
+      const Eigen::Vector3d step = (on_person_[p] ? time_s : 0.0) * velocity_;
+      const Eigen::Vector3d now = this_from_first * (points_[p] + step);
+      const Eigen::Vector2d px = camera_.project(now);
+      keypoints.keypoints.push_back({float(px.x()), float(px.y()), float(now.z())});
+      keypoints.descriptors.push_back(looks_[p]);
+    }
+    return keypoints;
+  }
+
+ private:
+  PinholeCamera camera_{scene::camera_settings()};
+  Eigen::Vector3d velocity_;
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<bool> on_person_;
+  std::vector<Descriptor> looks_;
+};
+
 TEST(PersonTracks, LearnTheVelocityFromKeypoints) {
   const Person person = walker();
   const Film film(room().person(person), 4);
-  const PinholeCamera camera(scene::camera_settings());
-  const GridCamera grid(camera);
-  // Points all over him that move along with him.
-  Random random(3);
-  std::vector<Eigen::Vector3d> points;
-  std::vector<Descriptor> looks;
-  for (const DepthKeypoint& k : scene::keypoints_on(film.views[0], 2)) {
-    if (film.views[0].owner(grid.cell_of_pixel(k.x, k.y)) != 1) continue;
-    points.push_back(camera.back_project({double(k.x), double(k.y)}, double(k.depth_m)));
-    looks.push_back(synthetic::random_descriptor(random));
-  }
-  ASSERT_GT(points.size(), 50U);
+  const FilmKeypoints keypoints(film, person);
+  ASSERT_GT(keypoints.n_on_person(), 50);
   PersonTracks tracks = new_tracks();
   for (int i = 0; i < film.size(); ++i) {
     film.begin(tracks, i);
-    FlowKeypoints keypoints;
-    for (std::size_t p = 0; p < points.size(); ++p) {
-      const Eigen::Vector3d now = points[p] + i * kStepS * person.velocity_m_per_s.cast<double>();
-      const Eigen::Vector2d px = camera.project(now);
-      keypoints.keypoints.push_back({float(px.x()), float(px.y()), float(now.z())});
-      keypoints.descriptors.push_back(looks[p]);
-    }
-    tracks.set_keypoints(keypoints);
+    tracks.set_keypoints(keypoints.seen(i * kStepS, SE3()));
     if (i == 0) tracks.add_detections(film.detections(0));
     film.end(tracks, i);
   }
   ASSERT_EQ(tracks.tracks().size(), 1U);
   EXPECT_TRUE(is_walking(tracks.tracks()[0]));
   EXPECT_NEAR(tracks.tracks()[0].velocity_m_per_s.x(), 0.6F, 0.06F);
+}
+
+TEST(PersonTracks, DoNotTakeATurnThatNobodyExpectedForTheirVelocity) {
+  Person person = walker();
+  person.velocity_m_per_s.setZero();
+  const auto turning = [](double t) { return scene::world_from_camera_at(0.0, 0.0, 0.0, 0.5 * t); };
+  const Film film(room().person(person), 4, turning);
+  const FilmKeypoints keypoints(film, person);
+  PersonTracks tracks = new_tracks();
+  for (int i = 0; i < film.size(); ++i) {
+    tracks.begin_frame(std::uint64_t(i), Film::time_s(i), film.views[std::size_t(i)].depth_m, SE3());
+    tracks.set_keypoints(keypoints.seen(i * kStepS, turning(i * kStepS).inverse() * turning(0.0)));
+    if (i == 0) tracks.add_detections(film.detections(0));
+    // Before tracking has found the motion.
+    ASSERT_EQ(tracks.tracks().size(), 1U);
+    EXPECT_LT(tracks.tracks()[0].velocity_m_per_s.norm(), 0.2F) << i;
+    film.end(tracks, i);
+  }
 }
 
 TEST(PersonTracks, AreTheSameRunAfterRun) {

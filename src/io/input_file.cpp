@@ -31,4 +31,12 @@ std::string read_input_file(const std::string& path) {
   return content;
 }
 
+std::string read_regular_file(const std::string& path, const std::string& kind) {
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw InputError("'" + path + "' is no " + kind + ": it is no regular file");
+  return read_input_file(path);
+}
+
 }  // namespace cpslam

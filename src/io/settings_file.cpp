@@ -149,6 +149,9 @@ void Settings::check() const {
     throw InputError("ORBextractor.minThFAST: " + std::to_string(orb.min_th_fast) +
                      " is above ORBextractor.iniThFAST, " + std::to_string(orb.ini_th_fast));
   }
+  if (localization && load_map.empty()) throw InputError("localization needs a map to localise in: load_map");
+  if (!load_map.empty() && vocabulary.empty())
+    throw InputError("load_map needs a vocabulary to find the camera with");
 }
 
 Settings load_settings(const std::string& path) {

@@ -4,8 +4,6 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -112,12 +110,7 @@ Vocabulary vocabulary_from_bytes(std::string_view bytes) {
 }
 
 Vocabulary load_vocabulary(const std::string& path) {
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-  // A device may go on for ever.
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-    throw InputError("'" + path + "' is no vocabulary: it is no regular file");
-  const std::string bytes = read_input_file(path);
+  const std::string bytes = read_regular_file(path, "vocabulary");
   try {
     const bool ours = bytes.starts_with(std::string_view(kMagic.data(), kMagic.size()));
     return ours ? vocabulary_from_bytes(bytes) : vocabulary_from_text(bytes);

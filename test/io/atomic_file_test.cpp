@@ -28,6 +28,18 @@ TEST(AtomicFile, WritesAndReplacesAndLeavesNothingElse) {
   EXPECT_EQ(folder.file_count(), 1U);
 }
 
+TEST(AtomicFile, OntoTheDiskIsTheSameButForTheWait) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("room.map", "old");
+  write_file_atomically(path, "new", Durability::kOnDisk);
+  EXPECT_EQ(TemporaryFolder::content(path), "new");
+  EXPECT_EQ(folder.file_count(), 1U);
+  std::filesystem::create_symlink("/dev/full", path + ".partial");
+  EXPECT_THAT(error_text<RunError>([&] { write_file_atomically(path, "newer", Durability::kOnDisk); }),
+              HasSubstr("room.map"));
+  EXPECT_EQ(TemporaryFolder::content(path), "new");
+}
+
 TEST(AtomicFile, AFullDiskIsAnError) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";
   EXPECT_THAT(run_error("/dev/full"), AllOf(HasSubstr("/dev/full"), HasSubstr("No space left")));

@@ -8,6 +8,17 @@
 #include "features/image_check.h"
 
 namespace cpslam {
+
+void derive(FrameFeatures& features, const PinholeCamera& camera) {
+  features.disparity_px.clear();
+  features.disparity_px.reserve(features.depth_m.size());
+  const auto bf = static_cast<float>(camera.bf());
+  for (const float depth_m : features.depth_m) {
+    features.disparity_px.push_back(depth_m > 0.0F ? bf / depth_m : 0.0F);
+  }
+  features.grid = KeypointGrid(features.keypoints, camera.undistorted_bounds());
+}
+
 FrameFeaturesBuilder::FrameFeaturesBuilder(const CameraSettings& camera, const OrbSettings& orb)
     : camera_(camera), metres_per_unit_(1.0 / camera.depth_map_factor), extractor_(orb) {}
 
@@ -58,12 +69,11 @@ std::shared_ptr<const FrameFeatures> FrameFeaturesBuilder::finish(const Keypoint
   features->keypoints.reserve(n);
   features->descriptors.reserve(n);
   features->depth_m.reserve(n);
-  features->disparity_px.reserve(n);
   features->depth_sigma_m.reserve(n);
   for (std::size_t i = 0; i < keep.size(); ++i) {
     if (keep[i] != 0) add_keypoint(candidates, i, *features);
   }
-  features->grid = KeypointGrid(features->keypoints, camera_.undistorted_bounds());
+  derive(*features, camera_);
   return features;
 }
 
@@ -80,8 +90,6 @@ void FrameFeaturesBuilder::add_keypoint(const KeypointCandidates& candidates, st
   features.descriptors.push_back(candidates.orb.descriptors[i]);
   features.depth_m.push_back(reading.depth_m);
   features.depth_sigma_m.push_back(reading.sigma_m);
-  features.disparity_px.push_back(reading.depth_m > 0.0F ? static_cast<float>(camera_.bf()) / reading.depth_m
-                                                         : 0.0F);
 }
 
 DepthReading FrameFeaturesBuilder::read_depth(const Eigen::Vector2d& distorted_px) const {

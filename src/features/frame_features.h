@@ -32,6 +32,9 @@ struct FrameFeatures {
   [[nodiscard]] int size() const { return static_cast<int>(keypoints.size()); }
 };
 
+/// Fills in what follows from keypoints and depths: the disparities and the grid.
+void derive(FrameFeatures& features, const PinholeCamera& camera);
+
 /// Keypoints of a frame before anybody said which of them to keep. The vectors are parallel.
 struct KeypointCandidates {
   OrbFeatures orb;                    ///< distorted px: where to look in the images

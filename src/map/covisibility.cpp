@@ -9,31 +9,47 @@ namespace {
 // Fewer shared points than this make no edge, unless there is no better one (Mur-Artal et al. 2015, III-D).
 constexpr int kMinSharedPoints = 15;
 
+bool fewer(const std::pair<const KeyFrameId, int>& a, const std::pair<const KeyFrameId, int>& b) {
+  return a.second < b.second;
+}
+
 }  // namespace
 
-void Map::update_covisibility(KeyFrameId id) {
-  KeyFrame* keyframe = keyframes_.find(id);
-  if (keyframe == nullptr) return;
+std::map<KeyFrameId, int> Map::count_shared(KeyFrameId id) const {
   std::map<KeyFrameId, int> shared;
-  for (const MapPointId point_id : keyframe->points) {
+  for (const MapPointId point_id : keyframes_.find(id)->points) {
     const MapPoint* point = points_.find(point_id);
     if (point == nullptr) continue;
     for (const Observation& seen : point->observations) {
       if (seen.keyframe != id) ++shared[seen.keyframe];
     }
   }
-  const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+  return shared;
+}
+
+void Map::add_edges(KeyFrameId id, const std::map<KeyFrameId, int>& shared) {
   const auto best = std::max_element(shared.begin(), shared.end(), fewer);
-  for (const Covisible& edge : keyframe->covisible) {
-    const auto still = shared.find(edge.keyframe);
-    if (still == shared.end() || still->second < kMinSharedPoints) erase_edge(edge.keyframe, id);
-  }
-  keyframe->covisible.clear();
   for (const auto& [other, count] : shared) {
     if (count < kMinSharedPoints && other != best->first) continue;
     add_edge(id, other, count);
     add_edge(other, id, count);
   }
+}
+
+void Map::derive_covisibility() {
+  for (const KeyFrameId id : keyframes_by_sequence()) add_edges(id, count_shared(id));
+}
+
+void Map::update_covisibility(KeyFrameId id) {
+  KeyFrame* keyframe = keyframes_.find(id);
+  if (keyframe == nullptr) return;
+  std::map<KeyFrameId, int> shared = count_shared(id);
+  for (const Covisible& edge : keyframe->covisible) {
+    const auto still = shared.find(edge.keyframe);
+    if (still == shared.end() || still->second < kMinSharedPoints) erase_edge(edge.keyframe, id);
+  }
+  keyframe->covisible.clear();
+  add_edges(id, shared);
   const bool is_root = keyframe->sequence == 0;
   if (is_root || keyframe->parent.valid()) return;
   // One that shared nothing when it came may have descendants by now: none of them can be its parent.

@@ -8,6 +8,7 @@
 #include "features/scale_pyramid.h"
 #include "map/ids.h"
 #include "map/keyframe.h"
+#include "map/map_parts.h"
 #include "map/map_point.h"
 #include "util/fair_shared_mutex.h"
 
@@ -26,6 +27,10 @@ class Map {
   Map& operator=(const Map&) = delete;
 
   [[nodiscard]] FairSharedMutex& mutex() const { return mutex_; }
+
+  /// Fills a map that is still empty with parts that check() has passed; returns the ids of the keyframes by
+  /// their positions. What a map knows beyond its parts is worked out anew.
+  std::vector<KeyFrameId> assemble(const MapParts& parts);
 
   // Keyframes
   // -------------------------------------------------------------------------------------------------
@@ -100,6 +105,13 @@ class Map {
     SE3 cam_from_parent;
   };
 
+  void assemble_point(const MapParts::PointPart& part, const std::vector<KeyFrameId>& ids);
+  /// Counts the covisibility edges of all keyframes.
+  void derive_covisibility();
+  /// How many points the keyframe shares with each other one.
+  [[nodiscard]] std::map<KeyFrameId, int> count_shared(KeyFrameId id) const;
+  /// Both ways, to each that shares enough points and to the one that shares most.
+  void add_edges(KeyFrameId id, const std::map<KeyFrameId, int>& shared);
   void add_edge(KeyFrameId from, KeyFrameId to, int shared_points);
   void erase_edge(KeyFrameId from, KeyFrameId to);
   void adopt_children(KeyFrameId orphaned_by, const KeyFrame& dead);

@@ -50,6 +50,7 @@ Settings effective_settings(const RgbdTumOptions& options) {
   settings.loops.enabled = !options.no_loop;
   settings.vocabulary = find_vocabulary(options.vocabulary);
   apply(options.detector, settings);
+  apply(options.maps, settings);
   return settings;
 }
 
@@ -111,6 +112,7 @@ int save(System& system, const RgbdTumOptions& options, const RecordingDetector*
     write_trajectory((dir / "CameraTrajectory.txt").string(), trajectory);
   });
   attempt([&] { write_trajectory((dir / "KeyFrameTrajectory.txt").string(), system.keyframe_trajectory()); });
+  if (!options.maps.save_map.empty()) attempt([&] { system.save_map(options.maps.save_map); });
   if (recorder != nullptr)
     attempt([&] { write_person_boxes(options.detector.save_boxes, recorder->recorded()); });
   const fs::path truth = fs::path(options.sequence) / "groundtruth.txt";
@@ -126,6 +128,7 @@ int save(System& system, const RgbdTumOptions& options, const RecordingDetector*
 void print_summary(const RgbdTumOptions& options, const RunReport& report, const PictureWriter* pictures) {
   std::cout << to_text(report) << "results     " << (fs::path(options.output) / "").string()
             << "{CameraTrajectory.txt, KeyFrameTrajectory.txt, stats.json}\n";
+  if (!options.maps.save_map.empty()) std::cout << "map file    " << options.maps.save_map << "\n";
   if (!options.detector.save_boxes.empty())
     std::cout << "boxes       " << options.detector.save_boxes << "\n";
   if (pictures == nullptr) return;
@@ -153,6 +156,7 @@ int main_program(const RgbdTumOptions& options) {
   const std::vector<RgbdEntry> entries = select_entries(options);
   prepare_output_folder("--output", options.output);
   if (!options.detector.save_boxes.empty()) check_folder_of("--save-boxes", options.detector.save_boxes);
+  if (!options.maps.save_map.empty()) check_folder_of("--save-map", options.maps.save_map);
   report.frames_in_sequence = entries.size();
 
   ProgressBar bar("tracking", entries.size(), !options.quiet);

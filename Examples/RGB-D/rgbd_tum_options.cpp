@@ -78,8 +78,12 @@ RgbdTumOptions parse_command_line(int argc, char** argv, std::optional<int>& exi
   add_input_options(app, options);
   add_run_options(app, options);
   add_detector_options(app, options.detector);
+  add_map_options(app, options.maps);
   add_output_options(app, options);
-  app.callback([&options] { check(options.detector, options.realtime); });
+  app.callback([&options] {
+    check(options.detector, options.realtime);
+    check(options.maps);
+  });
   app.set_version_flag("--version", "rgbd_tum (CP-SLAM) " CPSLAM_VERSION);
   exit_code = parse(app, "rgbd_tum", argc, argv);
   return options;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "common/map_options.h"
 #include "detector_options.h"
 
 namespace cpslam::program {
@@ -25,6 +26,7 @@ struct RgbdTumOptions {
   std::optional<std::size_t> max_frames;
   std::uint64_t seed = 0;
   DetectorOptions detector;
+  MapOptions maps;
 };
 
 /// Parses the command line. When the program has nothing more to do (--help, --version, bad usage), prints

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/loop_report.h"
+#include "common/map_report.h"
 #include "common/people_report.h"
 #include "common/report_text.h"
 
@@ -49,6 +50,8 @@ nlohmann::ordered_json settings_json(const Settings& s) {
           {"people", people_settings_json(s.people)},
           {"loops", loop_settings_json(s.loops)},
           {"vocabulary", s.vocabulary},
+          {"load_map", s.load_map},
+          {"localization", s.localization},
           {"sequential", s.sequential},
           {"realtime", s.realtime},
           {"seed", s.seed}};
@@ -93,6 +96,8 @@ std::string to_json(const RunReport& report) {
   if (const StageTimes* track = find_stage(s, "track")) {
     json["tracking_ms"] = {{"p50", track->p50_ms}, {"p95", track->p95_ms}, {"max", track->max_ms}};
   }
+  json["loaded_map"] = nullptr;
+  if (s.loaded_map) json["loaded_map"] = loaded_map_json(*s.loaded_map);
   json["people"] = nullptr;
   if (has_people(report)) json["people"] = people_json(report);
   json["loops"] = nullptr;
@@ -122,6 +127,7 @@ std::string to_text(const RunReport& report) {
   if (report.interrupted) text += "            interrupted: the frames after that were not read\n";
   text += line("map         %zu keyframes (%zu made), %zu points (%zu made)", s.keyframes,
                s.keyframes_created, s.map_points, s.map_points_created);
+  if (s.loaded_map) text += loaded_map_text(*s.loaded_map);
   if (const StageTimes* track = find_stage(s, "track")) {
     text += line("tracking    %.1f ms a frame (median), %.1f ms (95 %%), %.1f ms (max)", track->p50_ms,
                  track->p95_ms, track->max_ms);

@@ -103,6 +103,11 @@ struct Settings {
   PeopleSettings people;
   LoopSettings loops;
   std::string vocabulary;  ///< file with the words of images (vocabulary_tool); empty: no place is recognised
+  /// Map file to begin with (System::save_map); empty: with nothing. Needs a vocabulary.
+  std::string load_map;
+  /// Only find the camera in the loaded map, which is not changed. Where the map shows nothing, poses are
+  /// carried on from frame to frame.
+  bool localization = false;
   bool sequential =
       false;               ///< all stages one after the other in the caller's thread: reproducible to the bit
   bool realtime = false;   ///< never wait for the mapper; its load takes part in keyframe decisions

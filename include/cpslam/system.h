@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <opencv2/core/mat.hpp>
+#include <string>
 
 #include "cpslam/log.h"
 #include "cpslam/person_detector.h"
@@ -18,7 +19,9 @@ namespace cpslam {
 class System {
  public:
   /// Uses the detector that settings.detector asks for. Throws InputError when a setting is missing or out of
-  /// range, or the vocabulary or a file of the detector's is missing or broken.
+  /// range, or the vocabulary, the map to load or a file of the detector's is missing or broken, or that map
+  /// was made with another camera. In a loaded map frames have no pose (TrackingState::kLost) until one is
+  /// recognised in it; from then on poses are those in the map's world.
   explicit System(const Settings& settings, LogSink log = {});
   /// The same with a detector of the caller's; null for none.
   System(const Settings& settings, std::unique_ptr<PersonDetector> detector, LogSink log = {});
@@ -47,9 +50,14 @@ class System {
   /// Finishes the mapping of the frames so far and ends the threads. Idempotent; track() may not follow.
   void shutdown();
 
+  /// Writes the map (docs/map-format.md) for Settings::load_map: whole and onto the disk, or not at all, so
+  /// that whatever happens the file is the old one or the new one. Any time, also after shutdown(). Throws
+  /// RunError that names the file and the cause, also when there is no map yet.
+  void save_map(const std::string& path) const;
+
   /// Pose of every tracked frame, with all later corrections of its reference keyframe.
   [[nodiscard]] Trajectory trajectory() const;
-  /// Poses of the keyframes alive, by time.
+  /// Poses of the keyframes alive that were made here, not of those of a loaded map, by time.
   [[nodiscard]] Trajectory keyframe_trajectory() const;
   [[nodiscard]] Statistics statistics() const;
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,9 @@ struct TrackResult {
   int n_keypoints = 0;
   int n_inliers = 0;      ///< map points that agree with the pose
   bool keyframe = false;  ///< the frame became a keyframe
+  /// Settings::localization: the map shows nothing here, the pose is carried on from the frames before and
+  /// drifts; counts as kTracked.
+  bool bridged = false;
 };
 
 /// Milliseconds a stage took, over all its calls.
@@ -88,6 +92,16 @@ struct LoopStatistics {
   std::size_t full_bundle_adjustments_given_up = 0;  ///< for the next loop, or at the end
 };
 
+/// A map that was loaded, and how the camera was found in it.
+struct LoadedMapStatistics {
+  std::size_t keyframes = 0;            ///< the map came with
+  std::size_t points = 0;               ///< the map came with
+  bool other_vocabulary = false;        ///< it was made with other words: they were found anew
+  std::optional<double> found_time_s;   ///< of the first frame that was recognised in it
+  std::size_t frames_before_found = 0;  ///< frames without a pose until then
+  std::size_t bridged = 0;              ///< frames with TrackResult::bridged
+};
+
 struct Statistics {
   std::size_t frames = 0;
   std::size_t tracked = 0;
@@ -101,6 +115,7 @@ struct Statistics {
   std::size_t local_bundle_adjustments = 0;
   PeopleStatistics people;
   LoopStatistics loops;
+  std::optional<LoadedMapStatistics> loaded_map;
   std::vector<StageTimes> stages;  ///< "detect" is the detector's
 };
 

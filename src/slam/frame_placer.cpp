@@ -23,6 +23,8 @@ constexpr double kSuspiciousShare = 0.3;
 // (docs/benchmarks.md).
 constexpr int kRecognisedInliers = 2;
 constexpr double kMinFoundShare = 0.15;
+// At the map's rim its points are few and far: so many times as many of the last frame's tell more.
+constexpr int kMoreByLastFrame = 2;
 
 bool are_neighbours(const Map& map, KeyFrameId a, KeyFrameId b) {
   const std::shared_lock lock(map.mutex());
@@ -36,13 +38,20 @@ bool are_neighbours(const Map& map, KeyFrameId a, KeyFrameId b) {
 
 std::optional<Placement> FramePlacer::place(const PlacementPrior& prior, Frame& frame) {
   std::optional<Placement> moved = by_motion(prior, frame);
-  if (moved && moved->inliers >= kSuspiciousShare * prior.last_inliers) return moved;
+  const bool few = is_few(moved);
+  if (moved && !few && moved->inliers >= kSuspiciousShare * prior.last_inliers) return moved;
   // A second opinion. Where it is no better (a person steps in front of the camera), the first one stands.
   std::optional<Recognised> recognised = by_appearance(frame);
-  if (!recognised || (moved && recognised->placement.inliers <= moved->inliers)) return moved;
+  if (!recognised || (moved && recognised->placement.inliers <= moved->inliers))
+    return few ? by_last_frame(prior, std::move(moved), frame) : moved;
   frame = std::move(recognised->frame);
   local_map_ = std::move(recognised->local_map);
   return std::move(recognised->placement);
+}
+
+bool FramePlacer::is_few(const std::optional<Placement>& moved) const {
+  if (!rig_.settings.localization) return false;
+  return !moved || moved->inliers < kRecognisedInliers * rig_.settings.tracking.min_inliers;
 }
 
 Placement FramePlacer::place_keyframe(KeyFrameId keyframe, int inliers) {
@@ -60,6 +69,21 @@ std::optional<Placement> FramePlacer::by_motion(const PlacementPrior& prior, Fra
     if (auto placement = in_local_map(1.0F, local_map_, frame)) return placement;
   }
   return std::nullopt;
+}
+
+std::optional<Placement> FramePlacer::by_last_frame(const PlacementPrior& prior,
+                                                    std::optional<Placement> moved, Frame& frame) {
+  const auto scope = timer_.time("track: bridging");
+  const int fewest = moved ? kMoreByLastFrame * moved->inliers : rig_.settings.tracking.min_inliers;
+  Frame carried = frame;
+  for (const float radius_px : kMotionWindowsPx) {
+    carried.cam_from_world = prior.predicted_cam_from_world;
+    const int inliers = track_from_last_frame(rig_, prior.last, radius_px, carried);
+    if (inliers < fewest) continue;
+    frame = std::move(carried);
+    return Placement{inliers, {}, local_map_.reference(), local_map_.reference_from_world(), true};
+  }
+  return moved;
 }
 
 std::optional<FramePlacer::Recognised> FramePlacer::by_appearance(const Frame& frame) {

@@ -19,6 +19,7 @@ struct Placement {
   std::vector<MapPointId> expected;  ///< map points that should be visible
   KeyFrameId reference;              ///< the keyframe that shares most points with the frame
   SE3 reference_from_world;  ///< its pose at the time the points were read: what the frame's pose agrees with
+  bool bridged = false;      ///< the inliers are what the frames before saw, hardly any of them in the map
 };
 
 /// What is known about a frame before it is looked at.
@@ -29,7 +30,9 @@ struct PlacementPrior {
 };
 
 /// Finds the pose of a frame: by the motion so far, or, when that fails or convinces little, by the
-/// appearance of known keyframes. Owns the local map. One thread; takes shared locks of the map.
+/// appearance of known keyframes. With Settings::localization, which adds nothing to the map, by what the
+/// last frame saw where the map has little or nothing. Owns the local map. One thread; takes shared locks of
+/// the map.
 class FramePlacer {
  public:
   /// places: null when places are not recognised.
@@ -45,6 +48,11 @@ class FramePlacer {
 
  private:
   std::optional<Placement> by_motion(const PlacementPrior& prior, Frame& frame);
+  /// Whether a map that nothing is added to has so little here that the last frame may have more.
+  [[nodiscard]] bool is_few(const std::optional<Placement>& moved) const;
+  /// On what the last frame saw, in the map or not, if that is clearly more; else leaves it at `moved`.
+  std::optional<Placement> by_last_frame(const PlacementPrior& prior, std::optional<Placement> moved,
+                                         Frame& frame);
   /// A frame placed where it looks like, and the map around.
   struct Recognised {
     Frame frame;

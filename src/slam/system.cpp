@@ -10,6 +10,7 @@
 #include "place/vocabulary_file.h"
 #include "slam/back_end.h"
 #include "slam/frame_input.h"
+#include "slam/map_archive.h"
 #include "slam/places.h"
 #include "slam/rig.h"
 #include "slam/tracking.h"
@@ -37,9 +38,11 @@ class System::Impl {
         rig_(checked(settings)),
         map_(rig_.pyramid),
         places_(make_places(rig_.settings)),
+        loaded_(load_map(rig_, map_, places_.get(), log_)),
         features_(rig_.settings.camera, rig_.settings.orb),
         people_(rig_.settings, std::move(detector), timer_, log_),
-        tracking_(rig_, map_, places_.get(), timer_, log_),
+        tracking_(rig_, map_, places_.get(), timer_, log_,
+                  loaded_ ? std::move(loaded_->frames) : std::vector<LoggedFrame>()),
         back_end_(rig_, map_, places_.get(), timer_, log_) {}
 
   TrackResult track(const RgbdFrame& frame) {
@@ -57,7 +60,7 @@ class System::Impl {
       result = tracking_.track(frame.time_s, std::move(features), back_end_.load());
       people_.end(tracking_.expected_motion(interval_s), result.state == TrackingState::kTracked);
     }
-    count(result.state);
+    count(result);
     // After the clock has stopped: mapping in this thread, or waiting for the mapper, is not tracking.
     if (const KeyFrameId keyframe = tracking_.take_keyframe(); keyframe.valid()) back_end_.add(keyframe);
     return result;
@@ -70,8 +73,14 @@ class System::Impl {
     back_end_.finish();
   }
 
+  void save_map(const std::string& path) const {
+    cpslam::save_map(path, rig_, map_, places_.get(), tracking_.logged_frames());
+  }
+
   [[nodiscard]] Trajectory trajectory() const { return tracking_.trajectory(); }
-  [[nodiscard]] Trajectory keyframe_trajectory() const { return keyframe_poses(map_); }
+  [[nodiscard]] Trajectory keyframe_trajectory() const {
+    return keyframe_poses(map_, loaded_ ? loaded_->next_sequence : 0);
+  }
 
   [[nodiscard]] FrameView frame_view() const {
     FrameView view;
@@ -86,6 +95,7 @@ class System::Impl {
     statistics.local_bundle_adjustments = back_end_.local_bundle_adjustments();
     statistics.loops = back_end_.loop_statistics();
     statistics.people = people_.statistics();
+    if (loaded_) statistics.loaded_map = loaded_->statistics;
     statistics.stages = timer_.summary();
     const std::shared_lock lock(map_.mutex());
     statistics.keyframes = map_.n_keyframes();
@@ -139,9 +149,10 @@ class System::Impl {
     }
   }
 
-  void count(TrackingState state) {
+  void count(const TrackResult& result) {
+    if (loaded_) count_in_loaded_map(result, loaded_->statistics);
     ++counts_.frames;
-    switch (state) {
+    switch (result.state) {
       case TrackingState::kTracked:
         ++counts_.tracked;
         break;
@@ -157,11 +168,22 @@ class System::Impl {
     }
   }
 
+  void count_in_loaded_map(const TrackResult& result, LoadedMapStatistics& loaded) const {
+    if (result.bridged) ++loaded.bridged;
+    if (loaded.found_time_s) return;
+    if (result.state == TrackingState::kTracked) {
+      loaded.found_time_s = result.time_s;
+    } else {
+      ++loaded.frames_before_found;
+    }
+  }
+
   const Log log_;
   const Rig rig_;
   StageTimer timer_;
   Map map_;
   std::unique_ptr<Places> places_;
+  std::optional<LoadedMap> loaded_;
   FrameFeaturesBuilder features_;
   People people_;
   Tracking tracking_;
@@ -192,6 +214,9 @@ FrameView System::frame_view() const {
 }
 void System::shutdown() {
   impl_->shutdown();
+}
+void System::save_map(const std::string& path) const {
+  impl_->save_map(path);
 }
 Trajectory System::trajectory() const {
   return impl_->trajectory();

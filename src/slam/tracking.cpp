@@ -21,8 +21,17 @@ constexpr double kMaxTurnRadPerS = 12.0;
 
 }  // namespace
 
-Tracking::Tracking(const Rig& rig, Map& map, const Places* places, StageTimer& timer, Log log)
-    : rig_(rig), map_(map), timer_(timer), log_(std::move(log)), placer_(rig, map, places, timer) {}
+Tracking::Tracking(const Rig& rig, Map& map, const Places* places, StageTimer& timer, Log log,
+                   std::vector<LoggedFrame> earlier)
+    : rig_(rig),
+      map_(map),
+      timer_(timer),
+      log_(std::move(log)),
+      placer_(rig, map, places, timer),
+      trajectory_(std::move(earlier)) {
+  // In a loaded map the camera is somewhere, only nobody knows where yet.
+  if (map.n_keyframes() > 0) state_ = TrackingState::kLost;
+}
 
 KeyFrameId Tracking::take_keyframe() {
   return std::exchange(new_keyframe_, KeyFrameId{});
@@ -43,7 +52,7 @@ TrackResult Tracking::track(double time_s, std::shared_ptr<const FrameFeatures> 
     finish_tracked(std::move(frame), result);
   } else if (place(frame)) {
     update_velocity(frame);
-    count_visible(frame);
+    if (!rig_.settings.localization) count_visible(frame);
     best_inliers_ = std::max(best_inliers_, placement_.inliers);
     result.keyframe = should_insert(frame, load);
     if (result.keyframe) insert(frame);
@@ -110,6 +119,7 @@ void Tracking::count_visible(const Frame& frame) {
 }
 
 bool Tracking::should_insert(const Frame& frame, MapperLoad load) const {
+  if (rig_.settings.localization) return false;
   KeyFrameEvidence evidence;
   evidence.inliers = placement_.inliers;
   for (std::size_t i = 0; i < frame.matches.size(); ++i) {
@@ -144,7 +154,8 @@ void Tracking::update_velocity(const Frame& frame) {
 
 void Tracking::finish_tracked(Frame frame, TrackResult& result) {
   if (state_ == TrackingState::kLost || state_ == TrackingState::kPredicted) {
-    log_.info("tracking found again after " + std::to_string(frames_without_pose_) + " frames");
+    log_.info((has_last() ? "tracking found again after " : "found in the loaded map after ") +
+              std::to_string(frames_without_pose_) + " frames");
   }
   state_ = TrackingState::kTracked;
   frames_without_pose_ = 0;
@@ -154,6 +165,7 @@ void Tracking::finish_tracked(Frame frame, TrackResult& result) {
   trajectory_.add(frame.time_s, last_reference_, last_from_reference_);
   result.state = state_;
   result.n_inliers = placement_.inliers;
+  result.bridged = placement_.bridged;
   result.world_from_camera = to_pose(frame.cam_from_world.inverse());
   last_ = std::move(frame);
   add_temporary_points(rig_, last_);
@@ -161,7 +173,7 @@ void Tracking::finish_tracked(Frame frame, TrackResult& result) {
 
 void Tracking::finish_untracked(const Frame& frame, TrackResult& result) {
   ++frames_without_pose_;
-  const bool predictable = frame.time_s - last_.time_s <= kPredictionS;
+  const bool predictable = has_last() && frame.time_s - last_.time_s <= kPredictionS;
   if (!predictable && state_ != TrackingState::kLost)
     log_.warning("tracking lost; looking for known keyframes");
   state_ = predictable ? TrackingState::kPredicted : TrackingState::kLost;

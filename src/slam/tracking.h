@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "cpslam/types.h"
 #include "map/map.h"
@@ -17,8 +18,9 @@ namespace cpslam {
 /// Places every frame in the map and decides which become keyframes. One thread.
 class Tracking {
  public:
-  /// places: null when places are not recognised.
-  Tracking(const Rig& rig, Map& map, const Places* places, StageTimer& timer, Log log);
+  /// places: null when places are not recognised. earlier: the frames of the map, if it was loaded.
+  Tracking(const Rig& rig, Map& map, const Places* places, StageTimer& timer, Log log,
+           std::vector<LoggedFrame> earlier = {});
 
   /// load: what the mapper has to do, as far as it may influence the decision for a keyframe.
   TrackResult track(double time_s, std::shared_ptr<const FrameFeatures> features, MapperLoad load);
@@ -36,10 +38,13 @@ class Tracking {
   [[nodiscard]] std::vector<bool> tracked_keypoints() const;
 
   [[nodiscard]] Trajectory trajectory() const { return trajectory_.resolve(map_); }
+  /// Of this run and of those that the loaded map is from.
+  [[nodiscard]] const std::vector<LoggedFrame>& logged_frames() const { return trajectory_.frames(); }
 
  private:
   bool initialize(Frame& frame);
   bool place(Frame& frame);
+  [[nodiscard]] bool has_last() const { return last_.features != nullptr; }
   /// Brings the last frame up to date with the map; returns the map's count of corrections.
   std::uint64_t refresh_last();
   [[nodiscard]] std::uint64_t present_corrections() const;

@@ -7,6 +7,7 @@
 #include "cpslam/person_detector.h"
 #include "cpslam/system.h"
 #include "io/image_reader.h"
+#include "io/temporary_folder.h"
 #include "io/trajectory_error.h"
 #include "io/trajectory_io.h"
 #include "io/tum_sequence.h"
@@ -15,13 +16,17 @@
 namespace cpslam::e2e {
 namespace {
 
-/// Runs a clip in sequential mode.
+/// Runs a clip in sequential mode, with the detector, vocabulary and map of the wanted settings.
 struct RealRun {
   RealRun(const std::string& clip, const std::string& settings_file,
-          std::unique_ptr<PersonDetector> detector = nullptr, const DetectorSettings& detection = {}) {
+          std::unique_ptr<PersonDetector> detector = nullptr, const Settings& wanted = {},
+          const std::string& save_map = {}) {
     Settings settings = load_settings(CPSLAM_SOURCE_DIR "/Examples/RGB-D/" + settings_file);
     settings.sequential = true;
-    settings.detector = detection;
+    settings.detector = wanted.detector;
+    settings.vocabulary = wanted.vocabulary;
+    settings.load_map = wanted.load_map;
+    settings.localization = wanted.localization;
     System system(settings, std::move(detector));
     ReadAhead reader(associate_sequence(clip), 8);
     for (RgbdImages images; reader.next(images);) {
@@ -29,6 +34,7 @@ struct RealRun {
       static_cast<void>(system.track(images.colour, images.depth, images.time_s, images.depth_time_s));
     }
     system.shutdown();
+    if (!save_map.empty()) system.save_map(save_map);
     statistics = system.statistics();
     trajectory = system.trajectory();
     error = absolute_trajectory_error(read_trajectory(clip + "/groundtruth.txt"), trajectory);
@@ -67,11 +73,30 @@ TEST(RealClipsEndToEnd, ADetectorThatSeesNobodyCostsNothing) {
   EXPECT_LE(run.statistics.people.removed_keypoints, run.statistics.people.keypoints / 100);
 }
 
+TEST(RealClipsEndToEnd, DeskInItsOwnMap) {
+  const std::string clip = shared_data_dir().string() + "/fr1_desk_dev";
+  if (!std::filesystem::is_directory(clip)) GTEST_SKIP() << "no clip " << clip << "; set CPSLAM_SHARED_DATA";
+  const TemporaryFolder folder;
+  Settings settings;
+  settings.vocabulary = CPSLAM_SOURCE_DIR "/Vocabulary/cpslam.voc";
+  const RealRun mapping(clip, "TUM1.yaml", nullptr, settings, folder.file("desk.map"));
+  ASSERT_EQ(mapping.statistics.tracked, 250U);
+  settings.load_map = folder.file("desk.map");
+  settings.localization = true;
+  const RealRun localised(clip, "TUM1.yaml", nullptr, settings);
+  EXPECT_GE(localised.statistics.tracked, 248U);
+  EXPECT_EQ(localised.statistics.keyframes_created, mapping.statistics.keyframes_created);
+  EXPECT_LE(localised.statistics.loaded_map->bridged, 2U);
+  EXPECT_LE(localised.error.rmse_m, 0.02);
+}
+
 /// The recorded crowd with its boxes.
-RealRun run_crowd(const std::string& clip, DetectorSettings detection) {
-  detection.kind = DetectorKind::kBoxes;
-  detection.boxes_file = clip + "/person_boxes.txt";
-  return RealRun(clip, "Bonn.yaml", make_detector(detection), detection);
+RealRun run_crowd(const std::string& clip, const DetectorSettings& detection) {
+  Settings settings;
+  settings.detector = detection;
+  settings.detector.kind = DetectorKind::kBoxes;
+  settings.detector.boxes_file = clip + "/person_boxes.txt";
+  return RealRun(clip, "Bonn.yaml", make_detector(settings.detector), settings);
 }
 
 TEST(RealClipsEndToEnd, Crowd) {

@@ -12,13 +12,14 @@
 
 namespace cpslam {
 
-/// A folder of the running test's own, removed with everything in it at the end.
+/// A folder of the running test's (or test suite's) own, removed with everything in it at the end.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
     const testing::TestInfo* const test = testing::UnitTest::GetInstance()->current_test_info();
-    std::string pattern = (std::filesystem::temp_directory_path() / "cpslam_").string() +
-                          test->test_suite_name() + "_" + test->name() + "_XXXXXX";
+    const std::string name =
+        test != nullptr ? std::string(test->test_suite_name()) + "_" + test->name() : "suite";
+    std::string pattern = (std::filesystem::temp_directory_path() / ("cpslam_" + name)).string() + "_XXXXXX";
     if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot make " + pattern);
     path_ = pattern;
   }

@@ -81,7 +81,9 @@ std::optional<Placement> FramePlacer::by_last_frame(const PlacementPrior& prior,
     const int inliers = track_from_last_frame(rig_, prior.last, radius_px, carried);
     if (inliers < fewest) continue;
     frame = std::move(carried);
-    return Placement{inliers, {}, local_map_.reference(), local_map_.reference_from_world(), true};
+    Placement placement{inliers, {}, local_map_.reference(), local_map_.reference_from_world()};
+    placement.bridged = true;
+    return placement;
   }
   return moved;
 }

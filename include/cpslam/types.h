@@ -35,20 +35,34 @@ using Trajectory = std::vector<StampedPose>;
 enum class TrackingState {
   kNotInitialized,  ///< no frame with enough depth yet
   kTracked,         ///< the pose was optimised on enough inliers (TrackingSettings::min_inliers)
+  kWeak,            ///< likewise, but on hardly enough, or they hardly determine it: be careful
   kPredicted,       ///< the pose is only carried on by the motion model; not written to the trajectory
   kLost,            ///< no pose
 };
+
+/// The pose was found in the image: kTracked or kWeak.
+[[nodiscard]] constexpr bool is_tracked(TrackingState state) {
+  return state == TrackingState::kTracked || state == TrackingState::kWeak;
+}
+
+/// Of the six numbers d = (translation m, rotation vector rad) by which a pose is off, in the camera's own
+/// frame (x right, y down, z forward): true world_from_camera = world_from_camera * exp(d). Row by row.
+using PoseCovariance = std::array<double, 36>;
 
 /// What track() found out about one frame.
 struct TrackResult {
   TrackingState state = TrackingState::kNotInitialized;
   double time_s = 0.0;
-  Pose world_from_camera;  ///< valid when kTracked or kPredicted
+  Pose world_from_camera;  ///< valid when kTracked, kWeak or kPredicted
+  /// When tracked: from the keypoints' and depths' noise against the map as it stands; how far the map itself
+  /// is off is not in it. Zero for the frame that starts the map: it is where the world begins. Empty when
+  /// bridged.
+  std::optional<PoseCovariance> covariance;
   int n_keypoints = 0;
   int n_inliers = 0;      ///< map points that agree with the pose
   bool keyframe = false;  ///< the frame became a keyframe
   /// Settings::localization: the map shows nothing here, the pose is carried on from the frames before and
-  /// drifts; counts as kTracked.
+  /// drifts: kWeak, without a covariance.
   bool bridged = false;
 };
 
@@ -105,6 +119,7 @@ struct LoadedMapStatistics {
 struct Statistics {
   std::size_t frames = 0;
   std::size_t tracked = 0;
+  std::size_t weak = 0;  ///< of them: TrackingState::kWeak
   std::size_t predicted = 0;
   std::size_t lost = 0;
   std::size_t not_initialized = 0;

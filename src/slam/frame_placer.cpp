@@ -54,9 +54,10 @@ bool FramePlacer::is_few(const std::optional<Placement>& moved) const {
   return !moved || moved->inliers < kRecognisedInliers * rig_.settings.tracking.min_inliers;
 }
 
-Placement FramePlacer::place_keyframe(KeyFrameId keyframe, int inliers) {
+Placement FramePlacer::place_keyframe(KeyFrameId keyframe, const Placement& placement) {
   local_map_.centre_on(map_, keyframe);
-  return {inliers, {}, local_map_.reference(), local_map_.reference_from_world()};
+  return {
+      placement.inliers, {}, local_map_.reference(), local_map_.reference_from_world(), placement.covariance};
 }
 
 std::optional<Placement> FramePlacer::by_motion(const PlacementPrior& prior, Frame& frame) {
@@ -132,7 +133,7 @@ std::optional<Placement> FramePlacer::in_local_map(float window, LocalMap& local
   LocalMapMatch match = track_local_map(rig_, local_map, window, frame);
   if (match.inliers < rig_.settings.tracking.min_inliers) return std::nullopt;
   return Placement{match.inliers, std::move(match.expected), local_map.reference(),
-                   local_map.reference_from_world()};
+                   local_map.reference_from_world(), match.covariance};
 }
 
 }  // namespace cpslam

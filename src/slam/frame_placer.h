@@ -20,6 +20,7 @@ struct Placement {
   KeyFrameId reference;              ///< the keyframe that shares most points with the frame
   SE3 reference_from_world;  ///< its pose at the time the points were read: what the frame's pose agrees with
   bool bridged = false;      ///< the inliers are what the frames before saw, hardly any of them in the map
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< PoseSolverResult's
 };
 
 /// What is known about a frame before it is looked at.
@@ -43,8 +44,8 @@ class FramePlacer {
   /// agree.
   [[nodiscard]] std::optional<Placement> place(const PlacementPrior& prior, Frame& frame);
 
-  /// Moves the local map to a new keyframe: the placement of the frame it was made of.
-  [[nodiscard]] Placement place_keyframe(KeyFrameId keyframe, int inliers);
+  /// Moves the local map to a new keyframe: the placement of the frame it was made of, which was this one.
+  [[nodiscard]] Placement place_keyframe(KeyFrameId keyframe, const Placement& placement);
 
  private:
   std::optional<Placement> by_motion(const PlacementPrior& prior, Frame& frame);

@@ -40,6 +40,7 @@ class LocalMap {
 struct LocalMapMatch {
   int inliers = 0;                   ///< map points that agree with the optimised pose
   std::vector<MapPointId> expected;  ///< points that should be visible
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< PoseSolverResult's
 };
 
 /// Matches the local map's points into the frame around its present pose, optimises the pose on all matches

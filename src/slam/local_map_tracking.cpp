@@ -50,7 +50,9 @@ LocalMapMatch track_local_map(const Rig& rig, const LocalMap& local_map, float w
     frame.matches[static_cast<std::size_t>(found[q])] = {PointMatch::Kind::kMapPoint, sources[q]->id,
                                                          sources[q]->position_in_world};
   }
-  result.inliers = refine_pose(rig, frame).map_points;
+  const RefinedPose refined = refine_pose(rig, frame);
+  result.inliers = refined.map_points;
+  result.covariance = refined.covariance;
   return result;
 }
 

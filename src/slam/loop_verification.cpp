@@ -1,7 +1,5 @@
 #include "slam/loop_verification.h"
 
-#include <Eigen/Eigenvalues>
-#include <cmath>
 #include <shared_mutex>
 
 #include "slam/local_map.h"
@@ -14,19 +12,6 @@ namespace {
 
 // Of the points that should be visible. Occlusion and another light cost many; another place has few.
 constexpr double kMinFoundShare = 0.25;
-// Inliers crowded into a corner of the image, or on a line, leave the pose vaguer than this.
-constexpr double kMaxSigmaM = 0.03;
-constexpr double kMaxSigmaRad = 0.015;
-
-double largest_sigma(const Eigen::Matrix3d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
-  return std::sqrt(solver.eigenvalues().z());
-}
-
-bool is_well_determined(const RefinedPose& pose) {
-  return largest_sigma(pose.covariance.topLeftCorner<3, 3>()) < kMaxSigmaM &&
-         largest_sigma(pose.covariance.bottomRightCorner<3, 3>()) < kMaxSigmaRad;
-}
 
 std::optional<Frame> frame_of(const Map& map, KeyFrameId id) {
   const std::shared_lock lock(map.mutex());
@@ -52,7 +37,8 @@ std::optional<VerifiedLoop> verify_loop(const Rig& rig, const Map& map, KeyFrame
   (void)track_local_map(rig, surroundings, 3.0F, *frame);
   const LocalMapMatch match = track_local_map(rig, surroundings, 1.0F, *frame);
   const RefinedPose pose = refine_pose(rig, *frame);
-  if (pose.map_points < rig.settings.loops.min_inliers || !is_well_determined(pose)) return std::nullopt;
+  if (pose.map_points < rig.settings.loops.min_inliers || !is_well_determined(pose.covariance))
+    return std::nullopt;
   if (pose.map_points < kMinFoundShare * static_cast<double>(match.expected.size())) return std::nullopt;
 
   VerifiedLoop loop;

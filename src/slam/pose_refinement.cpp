@@ -1,9 +1,28 @@
 #include "slam/pose_refinement.h"
 
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
 #include "optim/pose_solver.h"
 #include "slam/observation_model.h"
 
 namespace cpslam {
+namespace {
+
+constexpr double kMaxSigmaM = 0.03;
+constexpr double kMaxSigmaRad = 0.015;
+
+double largest_sigma(const Eigen::Matrix3d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
+  return std::sqrt(solver.eigenvalues().z());
+}
+
+}  // namespace
+
+bool is_well_determined(const Eigen::Matrix<double, 6, 6>& covariance) {
+  return largest_sigma(covariance.topLeftCorner<3, 3>()) < kMaxSigmaM &&
+         largest_sigma(covariance.bottomRightCorner<3, 3>()) < kMaxSigmaRad;
+}
 
 RefinedPose refine_pose(const Rig& rig, Frame& frame) {
   std::vector<PoseObservation> observations;

@@ -58,7 +58,7 @@ class System::Impl {
       people_.begin(frame, tracking_.expected_motion(interval_s));
       std::shared_ptr<const FrameFeatures> features = static_features(frame, depth_time_s - frame.time_s);
       result = tracking_.track(frame.time_s, std::move(features), back_end_.load());
-      people_.end(tracking_.expected_motion(interval_s), result.state == TrackingState::kTracked);
+      people_.end(tracking_.expected_motion(interval_s), is_tracked(result.state));
     }
     count(result);
     // After the clock has stopped: mapping in this thread, or waiting for the mapper, is not tracking.
@@ -153,6 +153,9 @@ class System::Impl {
     if (loaded_) count_in_loaded_map(result, loaded_->statistics);
     ++counts_.frames;
     switch (result.state) {
+      case TrackingState::kWeak:
+        ++counts_.weak;
+        [[fallthrough]];
       case TrackingState::kTracked:
         ++counts_.tracked;
         break;
@@ -171,7 +174,7 @@ class System::Impl {
   void count_in_loaded_map(const TrackResult& result, LoadedMapStatistics& loaded) const {
     if (result.bridged) ++loaded.bridged;
     if (loaded.found_time_s) return;
-    if (result.state == TrackingState::kTracked) {
+    if (is_tracked(result.state)) {
       loaded.found_time_s = result.time_s;
     } else {
       ++loaded.frames_before_found;

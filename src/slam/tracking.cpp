@@ -8,6 +8,7 @@
 
 #include "slam/keyframe_inserter.h"
 #include "slam/motion_tracker.h"
+#include "slam/pose_refinement.h"
 
 namespace cpslam {
 namespace {
@@ -18,6 +19,14 @@ constexpr double kPredictionS = 0.34;
 // difference predicts nothing.
 constexpr double kMaxSpeedMPerS = 5.0;
 constexpr double kMaxTurnRadPerS = 12.0;
+// So many times Tracking.minInliers make a pose more than a weak one.
+constexpr int kFirmInliers = 2;
+
+PoseCovariance to_array(const Eigen::Matrix<double, 6, 6>& covariance) {
+  PoseCovariance array{};
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(array.data()) = covariance;
+  return array;
+}
 
 }  // namespace
 
@@ -136,7 +145,7 @@ bool Tracking::should_insert(const Frame& frame, MapperLoad load) const {
 void Tracking::insert(Frame& frame) {
   const auto scope = timer_.time("track: keyframe");
   new_keyframe_ = insert_keyframe(rig_, map_, placement_, frame);
-  placement_ = placer_.place_keyframe(new_keyframe_, placement_.inliers);
+  placement_ = placer_.place_keyframe(new_keyframe_, placement_);
   best_inliers_ = 0;
 }
 
@@ -163,9 +172,14 @@ void Tracking::finish_tracked(Frame frame, TrackResult& result) {
   last_from_reference_ = frame.cam_from_world * placement_.reference_from_world.inverse();
   last_inliers_ = placement_.inliers;
   trajectory_.add(frame.time_s, last_reference_, last_from_reference_);
-  result.state = state_;
+  const bool firm = !placement_.bridged &&
+                    placement_.inliers >= kFirmInliers * rig_.settings.tracking.min_inliers &&
+                    is_well_determined(placement_.covariance);
+  result.state = firm ? TrackingState::kTracked : TrackingState::kWeak;
   result.n_inliers = placement_.inliers;
   result.bridged = placement_.bridged;
+  // A twist to the left of cam_from_world is one in the camera's own frame, to the right of its inverse.
+  if (!placement_.bridged) result.covariance = to_array(placement_.covariance);
   result.world_from_camera = to_pose(frame.cam_from_world.inverse());
   last_ = std::move(frame);
   add_temporary_points(rig_, last_);

@@ -61,7 +61,7 @@ class Tracking {
   StageTimer& timer_;
   Log log_;
 
-  TrackingState state_ = TrackingState::kNotInitialized;
+  TrackingState state_ = TrackingState::kNotInitialized;  // kTracked for weak poses, too
   FramePlacer placer_;
   Placement placement_;        // of the frame at hand
   int last_inliers_ = 0;       // of last_

@@ -48,6 +48,8 @@ const char* name_of(cpslam::TrackingState state) {
       return "not initialized";
     case cpslam::TrackingState::kTracked:
       return "tracked";
+    case cpslam::TrackingState::kWeak:
+      return "weakly tracked";
     case cpslam::TrackingState::kPredicted:
       return "predicted";
     case cpslam::TrackingState::kLost:
@@ -80,7 +82,7 @@ int main() try {
   std::cout << "moved " << moved_m << " m, expected " << expected_m << " m, " << system.trajectory().size()
             << " poses\n";
   const bool right = moved_m > expected_m - 0.005 && moved_m < expected_m + 0.005;
-  return result.state == cpslam::TrackingState::kTracked && right && system.trajectory().size() == 3 ? 0 : 1;
+  return cpslam::is_tracked(result.state) && right && system.trajectory().size() == 3 ? 0 : 1;
 } catch (const std::exception& error) {
   std::cerr << "consumer: " << error.what() << '\n';
   return 1;

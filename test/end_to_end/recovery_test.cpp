@@ -29,7 +29,7 @@ class Recovery : public testing::Test {
   /// anywhere else than where the camera was.
   static void expect_back_soon_after(std::size_t from, const std::vector<TrackResult>& results,
                                      const Clip& clip, double largest_error_m = kLargestErrorM) {
-    const auto tracked = [](const TrackResult& result) { return result.state == TrackingState::kTracked; };
+    const auto tracked = [](const TrackResult& result) { return is_tracked(result.state); };
     const auto begin = results.begin() + static_cast<std::ptrdiff_t>(from);
     const auto back = std::find_if(begin, results.end(), tracked);
     EXPECT_LE(back - begin, static_cast<std::ptrdiff_t>(kSoon));
@@ -51,7 +51,7 @@ TEST_F(Recovery, CoveredLens) {
   System system(clip.settings);
   const std::vector<TrackResult> results = track_all(system, clip);
   for (std::size_t i = kCovered; i < kUncovered; ++i)
-    EXPECT_NE(results[i].state, TrackingState::kTracked) << "frame " << i << " shows nothing";
+    EXPECT_FALSE(is_tracked(results[i].state)) << "frame " << i << " shows nothing";
   EXPECT_EQ(results[kUncovered - 1].state, TrackingState::kLost);
   expect_back_soon_after(kUncovered, results, clip);
 }

@@ -15,20 +15,19 @@ namespace {
 
 constexpr std::size_t kReadAhead = 8;
 
-void track(System& system, const RgbdImages& images, PictureWriter* pictures) {
+void track(SlamSession& session, const RgbdImages& images) {
   RgbdFrame frame;
   frame.colour = images.colour;
   frame.depth = images.depth;
   frame.time_s = images.time_s;
   frame.depth_time_s = images.depth_time_s;
-  system.track(frame);
-  if (pictures != nullptr) pictures->add(images.colour, system.frame_view());
+  session.track(frame);
 }
 
 }  // namespace
 
-int run_sequence(System& system, const std::vector<RgbdEntry>& entries, ProgressBar& bar,
-                 PictureWriter* pictures, RunReport& report) {
+int run_sequence(SlamSession& session, const std::vector<RgbdEntry>& entries, ProgressBar& bar,
+                 RunReport& report) {
   ReadAhead reader(entries, kReadAhead);
   LeftOut unusable("frame", bar);
   FramePacer pacer;
@@ -45,7 +44,7 @@ int run_sequence(System& system, const std::vector<RgbdEntry>& entries, Progress
       continue;
     }
     try {
-      track(system, images, pictures);
+      track(session, images);
     } catch (const InputError& error) {
       unusable.add(stamp_text(images.time_s), error.what());
     } catch (const std::exception& error) {

@@ -1,4 +1,4 @@
-#include "detector_options.h"
+#include "common/detector_options.h"
 
 #include <CLI/CLI.hpp>
 #include <array>

@@ -8,7 +8,8 @@
 namespace cpslam::program {
 
 /// "tracking [=====>    ]  50 %  125/250  28.3/s  eta 0:04" on stderr: redrawn in place on a terminal, a line
-/// every tenth elsewhere, nothing when disabled. Thread-safe.
+/// every tenth elsewhere, nothing when disabled. Where nobody knows how much there is (total 0) "tracking 125
+/// 28.3/s", on a terminal only. Thread-safe.
 class ProgressBar {
  public:
   ProgressBar(std::string label, std::size_t total, bool enabled);

@@ -72,6 +72,7 @@ std::string to_json(const RunReport& report) {
                                  {"settings", settings_json(report.settings)},
                                  {"frames", report.frames_in_sequence},
                                  {"tracked", s.tracked},
+                                 {"weak", s.weak},
                                  {"predicted", s.predicted},
                                  {"lost", s.lost},
                                  {"not_initialized", s.not_initialized},
@@ -102,6 +103,7 @@ std::string to_json(const RunReport& report) {
   if (has_people(report)) json["people"] = people_json(report);
   json["loops"] = nullptr;
   if (has_loops(report)) json["loops"] = loops_json(s);
+  if (report.live) json["live"] = live_json(*report.live);
   json["peak_memory_mb"] = report.peak_memory_mb;
   json["wall_s"] = report.wall_s;
   json["ate"] = nullptr;
@@ -121,6 +123,7 @@ std::string to_text(const RunReport& report) {
   text += line("frames      %zu: %zu tracked (%.1f %%), %zu predicted, %zu lost, %zu before the start",
                report.frames_in_sequence, s.tracked, 100.0 * tracked_ratio(report), s.predicted, s.lost,
                s.not_initialized);
+  if (s.weak > 0) text += line("            %zu of the tracked ones weakly: on few points", s.weak);
   if (report.unreadable > 0)
     text += line("            %zu could not be used (see the warnings)", report.unreadable);
   if (report.dropped > 0) text += line("            %zu dropped to keep up with real time", report.dropped);
@@ -132,6 +135,7 @@ std::string to_text(const RunReport& report) {
     text += line("tracking    %.1f ms a frame (median), %.1f ms (95 %%), %.1f ms (max)", track->p50_ms,
                  track->p95_ms, track->max_ms);
   }
+  if (report.live) text += live_text(*report.live);
   if (has_people(report)) text += people_text(report);
   if (has_loops(report)) text += loops_text(s);
   text += line("total       %.1f s, peak memory %.0f MB", report.wall_s, report.peak_memory_mb);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "common/live_report.h"
 #include "cpslam/settings.h"
 #include "cpslam/types.h"
 #include "io/trajectory_error.h"
@@ -13,7 +14,7 @@ namespace cpslam::program {
 /// What a run leaves behind besides its trajectories.
 struct RunReport {
   std::string version;
-  std::string sequence;
+  std::string sequence;  ///< or the camera
   Settings settings;
   Statistics statistics;
   std::size_t frames_in_sequence = 0;
@@ -24,6 +25,7 @@ struct RunReport {
   double wall_s = 0.0;
   double peak_memory_mb = 0.0;
   std::optional<TrajectoryError> ate;
+  std::optional<LiveReport> live;  ///< of a camera's run
 };
 
 /// Resident memory of this process at its highest, MB.

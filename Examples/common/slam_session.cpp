@@ -1,0 +1,138 @@
+#include "common/slam_session.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <utility>
+
+#include "common/console_log.h"
+#include "common/output_folder.h"
+#include "common/run_program.h"
+#include "io/atomic_file.h"
+#include "io/person_boxes.h"
+#include "io/trajectory_error.h"
+#include "io/trajectory_io.h"
+
+namespace cpslam::program {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The settings' detector, wrapped to keep what it finds when that is to be saved.
+std::unique_ptr<PersonDetector> make_recorded_detector(const SlamOptions& options, const Settings& settings,
+                                                       const LogSink& log,
+                                                       const RecordingDetector*& recorder) {
+  std::unique_ptr<PersonDetector> detector = make_detector(settings.detector, log);
+  if (options.detector.save_boxes.empty()) return detector;
+  auto recording = std::make_unique<RecordingDetector>(std::move(detector));
+  recorder = recording.get();
+  return recording;
+}
+
+std::unique_ptr<PictureWriter> make_picture_writer(const SlamOptions& options, const Settings& settings,
+                                                   const LogSink& log) {
+  if (options.detector.draw.empty()) return nullptr;
+  using WhenBusy = PictureWriter::WhenBusy;
+  const WhenBusy when_busy = settings.realtime ? WhenBusy::kLeaveOut : WhenBusy::kWait;
+  return std::make_unique<PictureWriter>(options.detector.draw, when_busy, log);
+}
+
+/// The detector's thread is inside somebody else's code that does not return, and cannot be ended alone.
+[[noreturn]] void end_beside_stuck_detector() {
+  std::cout << std::flush;
+  std::fprintf(stderr, "error: the person detector has not come back; ending without it\n");
+  std::fflush(nullptr);
+  std::_Exit(kExitFailure);
+}
+
+}  // namespace
+
+SlamSession::SlamSession(const SlamOptions& options, const Settings& settings, ProgressBar& bar)
+    : options_(options), bar_(bar), log_(console_log(bar, options.quiet)) {
+  prepare_output_folder("--output", options_.output);
+  const std::string& boxes = options_.detector.save_boxes;
+  if (!boxes.empty()) check_folder_of("--save-boxes", boxes);
+  const std::string& map = options_.maps.save_map;
+  if (!map.empty()) check_folder_of("--save-map", map);
+  std::unique_ptr<PersonDetector> detector = make_recorded_detector(options_, settings, log_, recorder_);
+  pictures_ = make_picture_writer(options_, settings, log_);
+  system_ = std::make_unique<System>(settings, std::move(detector), log_);
+}
+
+TrackResult SlamSession::track(const RgbdFrame& frame) {
+  const TrackResult result = system_->track(frame);
+  if (pictures_) pictures_->add(frame.colour, system_->frame_view());
+  return result;
+}
+
+bool SlamSession::save_so_far() {
+  const fs::path dir = options_.output;
+  const bool frames =
+      attempt([&] { write_trajectory((dir / "CameraTrajectory.txt").string(), system_->trajectory()); });
+  const bool keyframes = attempt(
+      [&] { write_trajectory((dir / "KeyFrameTrajectory.txt").string(), system_->keyframe_trajectory()); });
+  const std::string& map = options_.maps.save_map;
+  const bool mapped = map.empty() || attempt([&] { system_->save_map(map); });
+  return frames && keyframes && mapped;
+}
+
+int SlamSession::finish(const std::string& ground_truth, RunReport& report) {
+  if (pictures_) pictures_->finish();
+  bar_.finish();
+  report.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const bool saved = save(ground_truth, report);
+  if (!options_.quiet) print_summary(report);
+  const PeopleStatistics& people = report.statistics.people;
+  if (people.detector_stuck) end_beside_stuck_detector();
+  return saved && people.detector_failures == 0 ? kExitOk : kExitFailure;
+}
+
+bool SlamSession::attempt(const std::function<void()>& step) const {
+  try {
+    step();
+    return true;
+  } catch (const std::exception& error) {
+    bar_.print_line(std::string("error: ") + error.what());
+    return false;
+  }
+}
+
+bool SlamSession::save(const std::string& ground_truth, RunReport& report) {
+  bool saved = attempt([&] { system_->shutdown(); });
+  saved = save_so_far() && saved;
+  if (recorder_ != nullptr) {
+    const auto write = [&] { write_person_boxes(options_.detector.save_boxes, recorder_->recorded()); };
+    saved = attempt(write) && saved;
+  }
+  if (fs::exists(ground_truth)) {
+    const auto compare = [&] {
+      report.ate = absolute_trajectory_error(read_trajectory(ground_truth), system_->trajectory());
+    };
+    saved = attempt(compare) && saved;
+  }
+  report.statistics = system_->statistics();
+  report.peak_memory_mb = peak_memory_mb();
+  const std::string stats = (fs::path(options_.output) / "stats.json").string();
+  return attempt([&] { write_file_atomically(stats, to_json(report)); }) && saved;
+}
+
+void SlamSession::print_summary(const RunReport& report) const {
+  std::cout << to_text(report) << "results     " << (fs::path(options_.output) / "").string()
+            << "{CameraTrajectory.txt, KeyFrameTrajectory.txt, stats.json}\n";
+  if (!options_.maps.save_map.empty()) std::cout << "map file    " << options_.maps.save_map << "\n";
+  if (!options_.detector.save_boxes.empty())
+    std::cout << "boxes       " << options_.detector.save_boxes << "\n";
+  if (!pictures_) return;
+  std::cout << "pictures    " << (fs::path(options_.detector.draw) / "").string();
+  if (pictures_->left_out() > 0) std::cout << ", without " << pictures_->left_out() << " to keep up";
+  std::cout << "\n";
+}
+
+void note_missing_detector(const SlamOptions& options) {
+  if (!options.detector.without_network || options.quiet) return;
+  std::fprintf(stderr, "note: people are not looked for: %s. --model CFG WEIGHTS names a network\n",
+               no_bundled_detector_model_text().c_str());
+}
+
+}  // namespace cpslam::program

@@ -5,6 +5,9 @@ find_package(OpenCV 4.5 REQUIRED COMPONENTS core imgproc imgcodecs features2d ca
 find_package(Ceres 2.1 REQUIRED COMPONENTS SuiteSparse)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json 3.10 REQUIRED)
+# Only the live camera needs it: without, everything else is built.
+list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
+find_package(OpenNI2)
 if(CPSLAM_BUILD_TESTS)
   find_package(GTest REQUIRED)
   include(GoogleTest)

@@ -11,6 +11,7 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
 readonly PACKAGES=(
   g++ cmake ninja-build ccache
   libopencv-dev libeigen3-dev libceres-dev libsuitesparse-dev libcli11-dev nlohmann-json3-dev
+  libopenni2-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   python3 python3-numpy python3-matplotlib python3-pil python3-pytest
 )

@@ -78,6 +78,7 @@ bool CameraRun::at_end() const {
 }
 
 void CameraRun::take(const CameraFrame& frame) {
+  if (gone_since_) tell_back();
   const DeviceClock::Times times = clock_.read(frame);
   if (times.jump_s) tell_jump(*times.jump_s);
   if (!first_time_s_) first_time_s_ = times.time_s;
@@ -112,35 +113,45 @@ void CameraRun::tell_jump(double jump_s) {
                   (live_.clock_jumps == kMaxTold ? "; further jumps are only counted" : ""));
 }
 
-bool CameraRun::survive(CameraEvent event, const std::stop_token& stop) {
+void CameraRun::tell_back() {
+  ++live_.reconnects;
+  bar_.print_line("the camera is back after " + seconds_text(gone_for().count()));
+  gone_since_.reset();
+}
+
+void CameraRun::tell_gone(CameraEvent event) {
   ++live_.interruptions;
-  bar_.print_line("warning: " + camera_->name() +
-                  (event == CameraEvent::kUnplugged
-                       ? " is unplugged"
-                       : " has delivered nothing for " + seconds_text(options_.stall_s)) +
-                  "; saving what was tracked");
-  session_.save_trajectories();
+  const std::string what = event == CameraEvent::kUnplugged
+                               ? " is unplugged"
+                               : " has delivered nothing for " + seconds_text(options_.stall_s);
+  bar_.print_line("warning: " + camera_->name() + what + "; saving what was tracked");
+  gone_since_ = std::chrono::steady_clock::now();
+}
+
+Seconds CameraRun::gone_for() const {
+  return std::chrono::steady_clock::now() - gone_since_.value();
+}
+
+bool CameraRun::survive(CameraEvent event, const std::stop_token& stop) {
+  if (!gone_since_) {
+    tell_gone(event);
+    session_.save_trajectories();
+  }
   add_counts();
   camera_.reset();
   return !is_file_ && reopen(stop);
 }
 
 bool CameraRun::reopen(const std::stop_token& stop) {
-  const auto gone = std::chrono::steady_clock::now();
-  const auto waited = [&] { return Seconds(std::chrono::steady_clock::now() - gone); };
   const Seconds patience(options_.reconnect_s);
-  std::string why_not;
-  while (!stop.stop_requested() && waited() < patience) {
-    if (try_open(why_not)) {
-      ++live_.reconnects;
-      bar_.print_line("the camera is back after " + seconds_text(waited().count()));
-      return true;
-    }
-    watch_.wait_for_camera(std::min(kRetry, patience - waited()), stop);
+  std::string why_not = "it delivers nothing";
+  while (!stop.stop_requested() && gone_for() < patience) {
+    if (try_open(why_not)) return true;
+    watch_.wait_for_camera(std::min<Seconds>(kRetry, patience - gone_for()), stop);
   }
-  if (stop.stop_requested()) return false;
-  bar_.print_line("error: the camera has not come back within " + seconds_text(options_.reconnect_s) +
-                  (why_not.empty() ? "" : ": " + why_not));
+  if (!stop.stop_requested())
+    bar_.print_line("error: the camera has not come back within " + seconds_text(options_.reconnect_s) +
+                    ": " + why_not);
   return false;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -9,8 +10,8 @@
 #include "common/run_report.h"
 #include "common/slam_session.h"
 #include "io/sequence_recorder.h"
-#include "latency_meter.h"
 #include "openni/device_clock.h"
+#include "openni/latency_meter.h"
 #include "openni/library.h"
 #include "openni/rgbd_camera.h"
 #include "rgbd_openni2_options.h"
@@ -33,7 +34,10 @@ class CameraRun {
   void take(const CameraFrame& frame);
   void track(const RgbdFrame& frame, const CameraFrame& taken);
   void tell_jump(double jump_s);
-  /// The camera is gone: saves what there is and waits for it. False when that is the end.
+  void tell_back();
+  void tell_gone(CameraEvent event);
+  [[nodiscard]] std::chrono::duration<double> gone_for() const;
+  /// The camera is gone: saves what there is and opens it anew. False when that is the end.
   bool survive(CameraEvent event, const std::stop_token& stop);
   bool reopen(const std::stop_token& stop);
   bool try_open(std::string& why_not);
@@ -48,8 +52,9 @@ class CameraRun {
 
   const bool is_file_;
   CameraWatch watch_;
-  std::unique_ptr<RgbdCamera> camera_;  // null while it is gone
-  CameraSettings device_settings_;      // what it says about itself
+  std::unique_ptr<RgbdCamera> camera_;                               // null while it cannot be opened
+  std::optional<std::chrono::steady_clock::time_point> gone_since_;  // until a frame comes
+  CameraSettings device_settings_;                                   // what it says about itself
   DeviceClock clock_;
   LatencyMeter latency_;
   LeftOut unusable_;

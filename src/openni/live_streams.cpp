@@ -54,6 +54,12 @@ void LiveStreams::onDeviceDisconnected(const openni::DeviceInfo* info) {
 }
 
 void LiveStreams::take(openni::VideoStream& stream, openni::SensorType sensor) {
+  // The call may come for a picture that the last call has taken: reading would wait for the next one, for
+  // ever where the camera is gone, and nobody could end this thread.
+  openni::VideoStream* waiting = &stream;
+  int ready = -1;
+  if (openni::OpenNI::waitForAnyStream(&waiting, 1, &ready, openni::TIMEOUT_NONE) != openni::STATUS_OK)
+    return;
   openni::VideoFrameRef raw;
   if (stream.readFrame(&raw) != openni::STATUS_OK || !raw.isValid()) return;
   CameraPicture picture = copy_picture(raw, device_.mirrored(sensor));

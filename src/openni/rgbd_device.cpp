@@ -58,7 +58,10 @@ RgbdDevice::RgbdDevice(const CameraOptions& options, const Log& log)
     uri_ = camera.uri;
     name_ = camera.name + " (" + camera.uri + ")";
   }
-  if (device_.open(uri_.c_str()) != openni::STATUS_OK) fail(name_ + " cannot be opened");
+  if (device_.open(uri_.c_str()) != openni::STATUS_OK) {
+    if (is_file_) throw InputError(name_ + " is no recording that OpenNI2 can play: " + openni_error());
+    fail(name_ + " cannot be opened");
+  }
   create(openni::SENSOR_COLOR, colour_, options);
   create(openni::SENSOR_DEPTH, depth_, options);
   if (is_file_) {

@@ -197,6 +197,22 @@ TEST(PoseSolver, CovarianceIsThatOfAMonteCarlo) {
   EXPECT_LT(std::sqrt(ratio.eigenvalues().maxCoeff()), 1.3);
 }
 
+TEST(PoseSolver, FewerPointsLeaveThePoseVaguerInEveryDirection) {
+  Random random(44);
+  for (int trial = 0; trial < 30; ++trial) {
+    const SE3 truth = random_pose(random);
+    const auto all = scenes::frame(truth, 200, 0.7, 0.0, random);
+    Matrix6d with_more = solve_pose(scenes::camera(), truth, all).covariance;
+    for (const std::ptrdiff_t n : {100, 50, 20, 8}) {
+      const std::vector<PoseObservation> some(all.begin(), all.begin() + n);
+      const Matrix6d with_fewer = solve_pose(scenes::camera(), truth, some).covariance;
+      const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> ratio(with_fewer, with_more);
+      EXPECT_GT(ratio.eigenvalues().minCoeff(), 1.0) << n;
+      with_more = with_fewer;
+    }
+  }
+}
+
 TEST(PoseSolver, TooFewObservationsGiveTheStartBack) {
   Random random(36);
   const SE3 truth = random_pose(random);

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "cpslam/system.h"
@@ -10,9 +13,13 @@ namespace cpslam::test {
 
 /// The first n frames of a walk through the simulated office, at a quarter of the usual image.
 struct SimulatedFrames {
-  explicit SimulatedFrames(int n, const std::string& preset = "office_xyz") {
+  /// noise_seed: of the sensor's noise; empty: none.
+  explicit SimulatedFrames(int n, const std::string& preset = "office_xyz",
+                           std::optional<std::uint64_t> noise_seed = {}) {
     sim::SimulationOptions options;
     options.preset = preset;
+    options.sensor_noise = noise_seed.has_value();
+    options.noise_seed = noise_seed;
     options.n_frames = n;
     options.start_s = 2.0;
     halve(options.camera);

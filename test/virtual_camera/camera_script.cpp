@@ -12,7 +12,7 @@ namespace {
 
 double to_number(const std::string& key, const std::string& value) {
   const std::optional<double> number = parse_number(value);
-  if (!number) throw InputError("virtual camera: " + key + "='" + value + "' is no number");
+  if (!number) throw InputError("" + key + "='" + value + "' is no number");
   return *number;
 }
 
@@ -39,6 +39,8 @@ CameraScript parse_script(const std::string& text) {
        [&](const auto& key, const auto& value) {
          script.stall_after = static_cast<int>(to_number(key, value));
        }},
+      {"die-after", [&](const auto& key,
+                        const auto& value) { script.die_after = static_cast<int>(to_number(key, value)); }},
       {"jump-after", [&](const auto& key,
                          const auto& value) { script.jump_after = static_cast<int>(to_number(key, value)); }},
       {"jump-us", [&](const auto& key, const auto& value) {
@@ -50,10 +52,10 @@ CameraScript parse_script(const std::string& text) {
     const std::string key = item.substr(0, equals);
     const auto found = keys.find(key);
     if (equals == std::string::npos || found == keys.end())
-      throw InputError("virtual camera: '" + item + "' is no key=value of its script");
+      throw InputError("'" + item + "' is no key=value of its script");
     found->second(key, item.substr(equals + 1));
   }
-  if (script.sequence.empty()) throw InputError("virtual camera: its script names no sequence");
+  if (script.sequence.empty()) throw InputError("its script names no sequence");
   if (script.settings.empty()) script.settings = script.sequence + "/settings.yaml";
   return script;
 }

@@ -17,6 +17,7 @@ struct CameraScript {
   std::optional<int> unplug_after;     ///< frames
   std::optional<double> return_after;  ///< s after it was unplugged; absent: never
   std::optional<int> stall_after;      ///< frames; delivers again once it was closed and opened
+  std::optional<int> die_after;        ///< frames; can be opened, and never delivers again
   std::optional<int> jump_after;       ///< frames, from which on the stamps are off by jump_us
   std::int64_t jump_us = 0;
 };

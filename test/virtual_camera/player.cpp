@@ -28,7 +28,7 @@ void Player::set_depth_sink(PictureSink* sink) {
 
 void Player::open() {
   const std::lock_guard lock(mutex_);
-  stalled_ = false;
+  stalled_ = script_.die_after && static_cast<int>(n_played_) >= *script_.die_after;
   time_us_ = script_.start_us;
 }
 
@@ -56,7 +56,7 @@ void Player::play_next(std::unique_lock<std::mutex>& lock, const std::stop_token
   time_us_ += step.interval_us;
   due_ += std::chrono::microseconds(step.interval_us);
   const int played = static_cast<int>(n_played_);
-  if (played == script_.stall_after) stalled_ = true;
+  if (played == script_.stall_after || played == script_.die_after) stalled_ = true;
   if (played == script_.unplug_after) be_unplugged(lock, stop);
 }
 

@@ -1,5 +1,6 @@
 // An OpenNI2 driver whose one camera plays a TUM-format sequence: CPSLAM_VIRTUAL_CAMERA holds its script.
 #include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -74,7 +75,7 @@ class VirtualDriver : public oni::driver::DriverBase {
     try {
       player_.emplace(parse_script(script), [this](bool plugged) { report(plugged); });
     } catch (const std::exception& error) {
-      getServices().errorLoggerAppend("%s", error.what());
+      std::fprintf(stderr, "virtual camera: %s\n", error.what());  // OpenNI2 keeps it to itself
       return ONI_STATUS_ERROR;
     }
     report(true);

@@ -1,8 +1,8 @@
-#include "latency_meter.h"
+#include "openni/latency_meter.h"
 
 #include <algorithm>
 
-namespace cpslam::program {
+namespace cpslam {
 namespace {
 
 /// Two quartz clocks drift apart by less.
@@ -25,4 +25,4 @@ double LatencyMeter::add(double time_s, HostTime arrived, HostTime now) {
   return 1e3 * (seconds(now) - time_s - *least_delay_s_);
 }
 
-}  // namespace cpslam::program
+}  // namespace cpslam

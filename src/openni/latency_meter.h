@@ -3,7 +3,7 @@
 #include <chrono>
 #include <optional>
 
-namespace cpslam::program {
+namespace cpslam {
 
 /// How long ago a frame was taken. The camera's clock and ours have nothing in common but their pace, so the
 /// quickest arrival lately counts as one without delay: what is constant in the camera and its cable is not
@@ -20,4 +20,4 @@ class LatencyMeter {
   double last_time_s_ = 0.0;
 };
 
-}  // namespace cpslam::program
+}  // namespace cpslam

@@ -23,19 +23,18 @@ using WhenBusy = SequenceRecorder::WhenBusy;
 
 Settings settings() {
   Settings settings;
-  settings.camera.width = 32;
-  settings.camera.height = 24;
-  settings.camera.fx = settings.camera.fy = 30.0;
-  settings.camera.cx = 15.5;
-  settings.camera.cy = 11.5;
+  settings.camera.width = 64;
+  settings.camera.height = 64;
+  settings.camera.fx = settings.camera.fy = 60.0;
+  settings.camera.cx = settings.camera.cy = 31.5;
   settings.camera.depth_map_factor = 1000.0;
   return settings;
 }
 
 RgbdFrame frame(std::uint64_t i) {
   RgbdFrame frame;
-  frame.colour = noise_image({32, 24}, CV_8UC3, i + 1);
-  frame.depth = noise_image({32, 24}, CV_16UC1, i + 1001);
+  frame.colour = noise_image({64, 64}, CV_8UC3, i + 1);
+  frame.depth = noise_image({64, 64}, CV_16UC1, i + 1001);
   frame.time_s = 10.0 + static_cast<double>(i) / 30.0;
   frame.depth_time_s = frame.time_s + 0.004;
   return frame;

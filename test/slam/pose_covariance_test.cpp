@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "cpslam/system.h"
@@ -23,7 +24,7 @@ Matrix6d to_matrix(const PoseCovariance& covariance) {
 TEST(TrackedPose, IsAsSureAsItsCovarianceSays) {
   // The same walk with ever other sensor noise; the map is made of the first frame as it happens to be noisy,
   // so the scatter is larger than what a frame alone accounts for.
-  constexpr int kWalks = 24;
+  constexpr int kWalks = 16;
   constexpr std::size_t kFrames = 5;
   Matrix6d scatter = Matrix6d::Zero(), claimed = Matrix6d::Zero();
   for (int walk = 0; walk < kWalks; ++walk) {
@@ -40,10 +41,8 @@ TEST(TrackedPose, IsAsSureAsItsCovarianceSays) {
     claimed += to_matrix(*result.covariance) / kWalks;
   }
   const Vector6d ratio = (scatter.diagonal().array() / claimed.diagonal().array()).sqrt();
-  RecordProperty("ratio", ::testing::PrintToString(std::vector<double>(ratio.begin(), ratio.end())));
-  std::printf("%f %f %f %f %f %f\n", ratio[0], ratio[1], ratio[2], ratio[3], ratio[4], ratio[5]);
-  EXPECT_GT(ratio.minCoeff(), 0.3);
-  EXPECT_LT(ratio.maxCoeff(), 3.0);
+  EXPECT_GT(ratio.minCoeff(), 0.35);
+  EXPECT_LT(ratio.maxCoeff(), 2.0);
 }
 
 TEST(TrackedPose, TheFirstFrameIsWhereTheWorldBegins) {
@@ -59,29 +58,47 @@ TEST(TrackedPose, TheFirstFrameIsWhereTheWorldBegins) {
             0.0);
 }
 
-TEST(TrackedPose, IsWeakOnFewPointsAndSaysLessThere) {
-  const SimulatedFrames frames(40);
-  System system(frames.with_mode(true));
-  for (std::size_t i = 0; i < 30; ++i) ASSERT_EQ(frames.track(system, i).state, TrackingState::kTracked) << i;
-  const TrackResult seen = frames.track(system, 30);
-  ASSERT_TRUE(seen.covariance);
-  // Somebody's back: ever less of the picture is left.
-  bool was_weak = false;
-  for (std::size_t i = 31; i < 40 && !was_weak; ++i) {
-    cv::Mat colour = frames.frames[i].colour_bgr.clone(), depth = frames.frames[i].depth.clone();
-    const int covered = colour.cols * static_cast<int>(i - 25) / 15;
-    colour.colRange(0, covered).setTo(cv::Scalar(40, 40, 40));
-    depth.colRange(0, covered).setTo(cv::Scalar(0));
-    const TrackResult result = system.track(colour, depth, frames.frames[i].time_s);
-    was_weak = result.state == TrackingState::kWeak;
-    if (!was_weak) continue;
+TEST(TrackedPose, IsVaguerWhereHalfThePictureIsCovered) {
+  const SimulatedFrames frames(5);
+  const auto last_trace = [&frames](bool covered) {
+    System system(frames.with_mode(true));
+    for (std::size_t i = 0; i < 4; ++i) (void)frames.track(system, i);
+    cv::Mat colour = frames.frames[4].colour_bgr.clone();
+    if (covered) colour.colRange(0, colour.cols / 2).setTo(cv::Scalar(40, 40, 40));
+    const TrackResult result = system.track(colour, frames.frames[4].depth, frames.frames[4].time_s);
     EXPECT_TRUE(is_tracked(result.state));
-    ASSERT_TRUE(result.covariance);
-    EXPECT_GT(to_matrix(*result.covariance).trace(), to_matrix(*seen.covariance).trace());
+    return to_matrix(result.covariance.value()).trace();
+  };
+  EXPECT_GT(last_trace(true), 1.2 * last_trace(false));
+}
+
+TEST(TrackedPose, IsWeakOnHardlyEnoughPoints) {
+  const SimulatedFrames frames(6);
+  int n_inliers = 1000000;
+  {
+    System system(frames.with_mode(true));
+    for (std::size_t i = 0; i < 6; ++i) {
+      const TrackResult result = frames.track(system, i);
+      EXPECT_EQ(result.state, TrackingState::kTracked);
+      n_inliers = std::min(n_inliers, result.n_inliers);
+    }
+    EXPECT_EQ(system.statistics().weak, 0U);
   }
-  EXPECT_TRUE(was_weak);
-  EXPECT_EQ(system.statistics().weak, 1U);
-  EXPECT_EQ(system.statistics().tracked, system.trajectory().size()) << "weak poses are in the trajectory";
+  Settings strict = frames.with_mode(true);
+  strict.tracking.min_inliers = static_cast<int>(0.8 * n_inliers);
+  System system(strict);
+  std::size_t weak = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const TrackResult result = frames.track(system, i);
+    EXPECT_TRUE(is_tracked(result.state)) << i;
+    const bool hardly = result.n_inliers < 2 * strict.tracking.min_inliers;
+    EXPECT_EQ(result.state, hardly ? TrackingState::kWeak : TrackingState::kTracked) << i;
+    weak += hardly ? 1U : 0U;
+  }
+  EXPECT_GT(weak, 0U);
+  EXPECT_EQ(system.statistics().weak, weak);
+  EXPECT_EQ(system.statistics().tracked, 6U) << "a weak pose is one";
+  EXPECT_EQ(system.trajectory().size(), 6U);
 }
 
 TEST(TrackedPose, NothingIsSaidWhereNothingWasSeen) {

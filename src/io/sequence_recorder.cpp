@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t kMaxWaiting = 32;
 /// The least that still compresses, for a camera does not wait: 21 ms a frame of 640x480, 23 with the default
 /// strategy, whose files are a tenth larger.
-constexpr std::array kPng{cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY,
-                          cv::IMWRITE_PNG_STRATEGY_RLE};
+constexpr std::array<int, 4> kPng{cv::IMWRITE_PNG_COMPRESSION, 1, cv::IMWRITE_PNG_STRATEGY,
+                                  cv::IMWRITE_PNG_STRATEGY_RLE};
 
 [[noreturn]] void refuse(const std::string& folder, const std::string& why) {
   throw InputError("cannot record into '" + folder + "': " + why);

@@ -135,7 +135,7 @@ Seconds CameraRun::gone_for() const {
 bool CameraRun::survive(CameraEvent event, const std::stop_token& stop) {
   if (!gone_since_) {
     tell_gone(event);
-    session_.save_trajectories();
+    session_.save_so_far();
   }
   add_counts();
   camera_.reset();

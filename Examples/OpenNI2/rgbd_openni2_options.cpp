@@ -96,7 +96,7 @@ void check_source(RgbdOpenni2Options& options) {
     throw CLI::ValidationError("--sequential", "goes with a file alone: a camera does not wait");
   if (!file) options.slam.realtime = true;
   options.camera.at_recorded_speed = file && options.slam.realtime;
-  check(options.slam.detector, options.slam.realtime);
+  check(options.slam);
 }
 
 }  // namespace

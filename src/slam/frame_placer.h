@@ -19,8 +19,8 @@ struct Placement {
   std::vector<MapPointId> expected;  ///< map points that should be visible
   KeyFrameId reference;              ///< the keyframe that shares most points with the frame
   SE3 reference_from_world;  ///< its pose at the time the points were read: what the frame's pose agrees with
-  bool bridged = false;      ///< the inliers are what the frames before saw, hardly any of them in the map
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();  ///< PoseSolverResult's
+  bool bridged = false;  ///< the inliers are what the frames before saw, hardly any of them in the map
 };
 
 /// What is known about a frame before it is looked at.

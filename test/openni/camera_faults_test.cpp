@@ -40,6 +40,16 @@ TEST(CameraFault, NobodyWaitsWhoDoesNotWantTo) {
   EXPECT_GT(camera.trajectory().size(), 0U);
 }
 
+TEST(CameraFault, TheMapIsSavedWhenTheCameraIsGone) {
+  const CameraOffice camera;
+  const std::string map = camera.folder().file("office.map");
+  ASSERT_EQ(
+      camera.run({"--reconnect-seconds", "0", "--quiet", "--save-map", map}, "unplug-after=20").exit_code, 1);
+  const ProgramResult again = camera.run({"--max-frames", "20", "--load-map", map});
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_GT(camera.stats().at("tracked"), 0) << "it is recognised";
+}
+
 TEST(CameraFault, UnpluggedAndPluggedInAgain) {
   const CameraOffice camera;
   // Its clock begins anew.

@@ -180,7 +180,9 @@ TEST(CameraCommandLine, HelpNamesEveryOption) {
                                  "--boxes-policy",
                                  "--people-filter",
                                  "--save-boxes",
-                                 "--draw"}) {
+                                 "--draw",
+                                 "--save-map",
+                                 "--load-map"}) {
     EXPECT_THAT(result.out, HasSubstr(word));
   }
 }

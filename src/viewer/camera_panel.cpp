@@ -1,0 +1,115 @@
+#include "viewer/camera_panel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "viewer/mask_overlay.h"
+#include "viewer/state_look.h"
+#include "viewer/widgets.h"
+
+namespace cpslam::viewer {
+namespace {
+
+constexpr float kKeypointPx = 2.3F;
+constexpr float kPlaceholderAspect = 0.75F;
+
+}  // namespace
+
+void CameraPanel::set_frame(std::shared_ptr<const FrameSnapshot> frame) {
+  frame_ = std::move(frame);
+  image_.set(frame_->image);
+  people_.set(mask_overlay(frame_->view.person_mask));
+}
+
+void CameraPanel::draw(const Gui& gui) const {
+  draw_state(gui);
+  draw_picture();
+  draw_legend(gui);
+}
+
+void CameraPanel::draw_state(const Gui& gui) const {
+  ImGui::PushFont(gui.heading());
+  ImGui::TextUnformatted("CP-SLAM");
+  ImGui::PopFont();
+  const StateLook look = look_of(frame_ ? frame_->result.state : TrackingState::kNotInitialized);
+  ImGui::SameLine(0.0F, 14.0F * gui.scale());
+  pill(gui, look.text, look.colour);
+  if (!frame_) return;
+  const TrackResult& result = frame_->result;
+  right_aligned(text("frame %llu     %.2f s     %d inliers", static_cast<unsigned long long>(frame_->index),
+                     result.time_s, result.n_inliers));
+}
+
+void CameraPanel::draw_picture() const {
+  const float width = ImGui::GetContentRegionAvail().x;
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const cv::Size size = image_.size();
+  const float scale = image_.empty() ? 1.0F : width / static_cast<float>(size.width);
+  const float height = image_.empty() ? kPlaceholderAspect * width : scale * static_cast<float>(size.height);
+  ImGui::Dummy({width, height});
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 end(corner.x + width, corner.y + height);
+  if (image_.empty()) {
+    list.AddRectFilled(corner, end, to_u32(kBackground));
+    return;
+  }
+  list.PushClipRect(corner, end, true);
+  list.AddImage(image_.handle(), corner, end);
+  if (!people_.empty()) list.AddImage(people_.handle(), corner, end);
+  draw_seen(corner, scale);
+  list.PopClipRect();
+}
+
+void CameraPanel::draw_seen(ImVec2 corner, float scale) const {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  for (const FrameView::SeenKeypoint& keypoint : frame_->view.keypoints) {
+    // A pixel's area reaches half a pixel around its coordinates.
+    const ImVec2 at(corner.x + scale * (keypoint.x + 0.5F), corner.y + scale * (keypoint.y + 0.5F));
+    list.AddCircleFilled(at, kKeypointPx, to_u32(keypoint_colour(keypoint.kind)), 6);
+  }
+  for (const PersonBox& box : frame_->view.boxes) {
+    const auto left = corner.x + scale * static_cast<float>(box.x);
+    const auto top = corner.y + scale * static_cast<float>(box.y);
+    const ImVec2 end(left + scale * static_cast<float>(box.width),
+                     top + scale * static_cast<float>(box.height));
+    list.AddRect({left, top}, end, to_u32(kBox), 4.0F, 0, 2.0F);
+    const std::string confidence = text("%.0f %%", 100.0 * box.confidence);
+    const ImVec2 extent = ImGui::CalcTextSize(confidence.c_str());
+    const ImVec2 label(std::max(left, corner.x) + 4.0F, std::max(top, corner.y) + 3.0F);
+    list.AddRectFilled({label.x - 2.0F, label.y - 1.0F},
+                       {label.x + extent.x + 3.0F, label.y + extent.y + 1.0F},
+                       to_u32(faded(kBackground, 0.65)), 3.0F);
+    list.AddText(label, to_u32(kBox), confidence.c_str());
+  }
+}
+
+void CameraPanel::draw_legend(const Gui& gui) const {
+  if (!frame_) return;
+  const FrameView& view = frame_->view;
+  const auto count = [&view](FrameView::Kind kind) {
+    return static_cast<int>(std::count_if(view.keypoints.begin(), view.keypoints.end(),
+                                          [kind](const auto& keypoint) { return keypoint.kind == kind; }));
+  };
+  ImGui::PushFont(gui.small());
+  dot(kTracked);
+  quiet(text("%d on the map", count(FrameView::Kind::kTracked)));
+  ImGui::SameLine(0.0F, 16.0F * gui.scale());
+  dot(kKept);
+  quiet(text("%d kept", count(FrameView::Kind::kKept)));
+  ImGui::SameLine(0.0F, 16.0F * gui.scale());
+  dot(kRemoved);
+  quiet(text("%d removed", count(FrameView::Kind::kRemoved)));
+  ImGui::SameLine(0.0F, 16.0F * gui.scale());
+  dot(kBox);
+  if (view.boxes_time_s) {
+    quiet(text("%zu boxes, %.0f ms old", view.boxes.size(), 1000.0 * (view.time_s - *view.boxes_time_s)));
+  } else {
+    quiet("no boxes");
+  }
+  ImGui::PopFont();
+}
+
+}  // namespace cpslam::viewer

@@ -1,0 +1,89 @@
+#include "slam/snapshot_publisher.h"
+
+#include <gtest/gtest.h>
+
+namespace cpslam {
+namespace {
+
+/// Counts what it is asked to make.
+class PublisherTest : public testing::Test {
+ protected:
+  void offer(double tracking_ms) {
+    publisher.offer(
+        tracking_ms,
+        [&] {
+          FrameSnapshot frame;
+          frame.index = static_cast<std::uint64_t>(++frames);
+          return frame;
+        },
+        [&] {
+          MapSnapshot map;
+          map.corrections = static_cast<std::uint64_t>(++maps);
+          return map;
+        });
+  }
+
+  std::shared_ptr<SnapshotBoard> board = std::make_shared<SnapshotBoard>();
+  StageTimer timer;
+  SnapshotPublisher publisher{board, timer};
+  int frames = 0;
+  int maps = 0;
+};
+
+TEST_F(PublisherTest, MakesNothingThatNobodyAskedFor) {
+  for (int i = 0; i < 100; ++i) offer(10.0);
+  EXPECT_EQ(frames, 0);
+  EXPECT_EQ(maps, 0);
+  EXPECT_EQ(board->frame(), nullptr);
+  EXPECT_EQ(board->map(), nullptr);
+  EXPECT_TRUE(timer.summary().empty());
+}
+
+TEST_F(PublisherTest, AnswersEachRequestOnce) {
+  board->request_frame(SnapshotWish::kWhenCheap);
+  for (int i = 0; i < 5; ++i) offer(1e6);
+  EXPECT_EQ(frames, 1);
+  EXPECT_EQ(maps, 0);
+  ASSERT_NE(board->frame(), nullptr);
+  EXPECT_EQ(board->frame()->index, 1U);
+  board->request_map(SnapshotWish::kWhenCheap);
+  offer(1e6);
+  EXPECT_EQ(frames, 1);
+  EXPECT_EQ(maps, 1);
+  EXPECT_EQ(board->map()->corrections, 1U);
+  EXPECT_EQ(board->map_wish(), SnapshotWish::kNone);
+}
+
+TEST_F(PublisherTest, MakesTrackingWorkForThem) {
+  // Whatever a snapshot costs here, hardly any tracking does not earn it back, and a long time does.
+  board->request_map(SnapshotWish::kWhenCheap);
+  offer(0.0);
+  EXPECT_EQ(maps, 1) << "the first is free";
+  board->request_map(SnapshotWish::kWhenCheap);
+  for (int i = 0; i < 10; ++i) offer(0.0);
+  EXPECT_EQ(maps, 1);
+  offer(1e9);
+  EXPECT_EQ(maps, 2);
+}
+
+TEST_F(PublisherTest, NowMeansNow) {
+  for (int i = 0; i < 10; ++i) {
+    board->request_frame(SnapshotWish::kNow);
+    board->request_map(SnapshotWish::kNow);
+    offer(0.0);
+  }
+  EXPECT_EQ(frames, 10);
+  EXPECT_EQ(maps, 10);
+}
+
+TEST_F(PublisherTest, SaysWhatTheyCost) {
+  board->request_frame(SnapshotWish::kNow);
+  board->request_map(SnapshotWish::kNow);
+  offer(0.0);
+  const std::vector<StageTimes> stages = timer.summary();
+  ASSERT_EQ(stages.size(), 2U);
+  for (const StageTimes& stage : stages) EXPECT_EQ(stage.count, 1U) << stage.stage;
+}
+
+}  // namespace
+}  // namespace cpslam

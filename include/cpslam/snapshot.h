@@ -29,7 +29,7 @@ struct FrameSnapshot {
   cv::Mat image;  ///< a copy of the frame's colour image
   FrameView view;
   std::vector<WorldPoint> tracked_points;  ///< map points the pose stands on
-  std::vector<PersonShape> people;         ///< none while the pose is not known
+  std::vector<PersonShape> people;         ///< none in a frame that was not tracked
   std::vector<StageTimes> stages;          ///< of the run so far
 };
 

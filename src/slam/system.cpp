@@ -174,8 +174,7 @@ class System::Impl {
     snapshot.image = colour.clone();
     snapshot.view = frame_view();
     snapshot.tracked_points = tracking_.tracked_points();
-    if (result.state == TrackingState::kTracked)
-      snapshot.people = people_.shapes(from_pose(result.world_from_camera));
+    if (is_tracked(result.state)) snapshot.people = people_.shapes(from_pose(result.world_from_camera));
     snapshot.stages = timer_.summary();
     return snapshot;
   }

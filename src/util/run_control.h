@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 
 namespace cpslam {
 
@@ -31,8 +32,8 @@ class RunControl {
   }
   /// No more frames, paused or not.
   void quit() {
+    quitting_.request_stop();  // not with the lock: it calls back
     const std::lock_guard lock(mutex_);
-    quitting_ = true;
     changed_.notify_all();
   }
 
@@ -40,27 +41,26 @@ class RunControl {
     const std::lock_guard lock(mutex_);
     return paused_;
   }
-  [[nodiscard]] bool quitting() const {
-    const std::lock_guard lock(mutex_);
-    return quitting_;
-  }
+  [[nodiscard]] bool quitting() const { return quitting_.stop_requested(); }
+  /// Stopped by quit(); for runs that wait for something else.
+  [[nodiscard]] std::stop_token token() const { return quitting_.get_token(); }
 
   /// Waits until the next frame may be taken: how long that was. Nothing: no more frames.
   [[nodiscard]] std::optional<std::chrono::steady_clock::duration> wait_for_turn() {
     const auto start = std::chrono::steady_clock::now();
     std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return quitting_ || !paused_ || steps_ > 0; });
-    if (quitting_) return std::nullopt;
+    changed_.wait(lock, [this] { return quitting() || !paused_ || steps_ > 0; });
+    if (quitting()) return std::nullopt;
     if (paused_) --steps_;
     return std::chrono::steady_clock::now() - start;
   }
 
  private:
+  std::stop_source quitting_;
   mutable std::mutex mutex_;  // guards all below
   std::condition_variable changed_;
   bool paused_ = false;
   std::size_t steps_ = 0;  // asked for and not yet taken
-  bool quitting_ = false;
 };
 
 }  // namespace cpslam

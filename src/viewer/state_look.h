@@ -15,6 +15,8 @@ struct StateLook {
   switch (state) {
     case TrackingState::kTracked:
       return {"TRACKED", {46, 160, 90}};
+    case TrackingState::kWeak:
+      return {"WEAK", {120, 150, 50}};
     case TrackingState::kPredicted:
       return {"PREDICTED", {200, 140, 30}};
     case TrackingState::kLost:

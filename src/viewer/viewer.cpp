@@ -82,7 +82,7 @@ bool Viewer::take_snapshots() {
     timings_.add(*frame_);
     facts_.people = frame_->people.size();
     const auto& at = frame_->result.world_from_camera.translation_m;
-    if (frame_->result.state == TrackingState::kTracked) view_.set_camera({at[0], at[1], at[2]});
+    if (is_tracked(frame_->result.state)) view_.set_camera({at[0], at[1], at[2]});
     fresh = true;
   }
   request_snapshots();

@@ -41,6 +41,7 @@ TEST(RunControl, RunsFreelyUntilQuit) {
   control.quit();
   run.wait_for_end();
   EXPECT_TRUE(control.quitting());
+  EXPECT_TRUE(control.token().stop_requested());
 }
 
 TEST(RunControl, PausedItTakesExactlyTheStepsAskedFor) {

@@ -22,7 +22,13 @@ void draw_window(benchmark::State& state) {
   for (auto _ : state) viewer.draw_once();
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()));
 }
-BENCHMARK(draw_window)->Arg(0)->Arg(10000)->Arg(100000)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(draw_window)
+    ->Arg(0)
+    ->Arg(10000)
+    ->Arg(100000)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 /// A new frame and a new map on the board before each drawing.
 void take_and_draw(benchmark::State& state) {
@@ -41,7 +47,7 @@ void take_and_draw(benchmark::State& state) {
     viewer.draw_once();
   }
 }
-BENCHMARK(take_and_draw)->Arg(100000)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(take_and_draw)->Arg(100000)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 /// What tracking waits for while the map is copied: points
 void copy_map(benchmark::State& state) {

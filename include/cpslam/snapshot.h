@@ -55,20 +55,20 @@ struct MapSnapshot {
 enum class SnapshotWish {
   kNone,
   kWhenCheap,  ///< seldom enough that tracking is hardly slower for it
-  kNow,        ///< of the very next frame, whatever it costs: to go through a sequence step by step
+  kEvery,      ///< of every frame until another wish comes, whatever they cost: to go step by step
 };
 
 /// Where a System lays down what somebody wants to see, and he picks it up: nothing is copied unless it was
 /// asked for. Snapshots are immutable. Thread-safe.
 class SnapshotBoard {
  public:
-  /// One more of the kind.
+  /// One more of the kind, or with kEvery all that come.
   void request_frame(SnapshotWish wish);
   void request_map(SnapshotWish wish);
   [[nodiscard]] SnapshotWish frame_wish() const;
   [[nodiscard]] SnapshotWish map_wish() const;
 
-  /// Answers the request.
+  /// Answers the wish.
   void publish(std::shared_ptr<const FrameSnapshot> frame);
   void publish(std::shared_ptr<const MapSnapshot> map);
 

@@ -26,13 +26,13 @@ SnapshotWish SnapshotBoard::map_wish() const {
 
 void SnapshotBoard::publish(std::shared_ptr<const FrameSnapshot> frame) {
   const std::lock_guard lock(mutex_);
-  frame_wish_ = SnapshotWish::kNone;
+  if (frame_wish_ != SnapshotWish::kEvery) frame_wish_ = SnapshotWish::kNone;
   frame_.swap(frame);  // the old one dies with the argument, after the lock
 }
 
 void SnapshotBoard::publish(std::shared_ptr<const MapSnapshot> map) {
   const std::lock_guard lock(mutex_);
-  map_wish_ = SnapshotWish::kNone;
+  if (map_wish_ != SnapshotWish::kEvery) map_wish_ = SnapshotWish::kNone;
   map_.swap(map);
 }
 

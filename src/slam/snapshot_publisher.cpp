@@ -15,7 +15,7 @@ double time_ms(const Action& action) {
 }
 
 bool is_due(SnapshotWish wish, const TimeBudget& budget) {
-  return wish == SnapshotWish::kNow || (wish == SnapshotWish::kWhenCheap && budget.affordable());
+  return wish == SnapshotWish::kEvery || (wish == SnapshotWish::kWhenCheap && budget.affordable());
 }
 
 }  // namespace

@@ -39,6 +39,7 @@ void CameraPanel::draw_state(const Gui& gui) const {
   pill(gui, look.text, look.colour);
   if (!frame_) return;
   const TrackResult& result = frame_->result;
+  ImGui::AlignTextToFramePadding();
   right_aligned(text("frame %llu     %.2f s     %d inliers", static_cast<unsigned long long>(frame_->index),
                      result.time_s, result.n_inliers));
 }
@@ -105,7 +106,8 @@ void CameraPanel::draw_legend(const Gui& gui) const {
   ImGui::SameLine(0.0F, 16.0F * gui.scale());
   dot(kBox);
   if (view.boxes_time_s) {
-    quiet(text("%zu boxes, %.0f ms old", view.boxes.size(), 1000.0 * (view.time_s - *view.boxes_time_s)));
+    quiet(text("%zu %s, %.0f ms old", view.boxes.size(), view.boxes.size() == 1 ? "box" : "boxes",
+               1000.0 * (view.time_s - *view.boxes_time_s)));
   } else {
     quiet("no boxes");
   }

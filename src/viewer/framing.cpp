@@ -1,7 +1,7 @@
 #include "viewer/framing.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <vector>
 
 #include "geometry/se3.h"
@@ -9,41 +9,59 @@
 namespace cpslam::viewer {
 namespace {
 
-constexpr double kOutermost = 0.03;  // of the points, at either end of each axis
+constexpr double kOutermost =
+    0.06;  // of the points: beyond the ball; half of them at either end of each axis
 constexpr std::size_t kSamples = 4000;
 
-std::vector<WorldPoint> sample_points(const MapSnapshot& map) {
-  std::vector<WorldPoint> samples;
+/// Some of the points.
+std::vector<Eigen::Vector3d> sample_points(const MapSnapshot& map) {
+  std::vector<Eigen::Vector3d> samples;
   const std::size_t step = std::max<std::size_t>(1, map.points.size() / kSamples);
-  for (std::size_t i = 0; i < map.points.size(); i += step) samples.push_back(map.points[i]);
+  for (std::size_t i = 0; i < map.points.size(); i += step) {
+    const WorldPoint& p = map.points[i];
+    samples.emplace_back(p[0], p[1], p[2]);
+  }
   return samples;
 }
 
-/// The value below which a share of the coordinates lie.
-double quantile(std::vector<WorldPoint>& points, std::size_t axis, double share) {
-  const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(points.size() - 1));
-  std::nth_element(points.begin(), points.begin() + rank, points.end(),
-                   [axis](const WorldPoint& a, const WorldPoint& b) { return a[axis] < b[axis]; });
-  return points[static_cast<std::size_t>(rank)][axis];
+std::vector<Eigen::Vector3d> path_points(const MapSnapshot& map) {
+  std::vector<Eigen::Vector3d> points;
+  for (const StampedPose& pose : map.trajectory) {
+    const auto& t = pose.world_from_camera.translation_m;
+    points.emplace_back(t[0], t[1], t[2]);
+  }
+  return points;
+}
+
+/// The value below which a share of the measured points lie; there has to be one.
+template <typename Measure>
+double quantile(const std::vector<Eigen::Vector3d>& points, double share, const Measure& measure) {
+  std::vector<double> values;
+  values.reserve(points.size());
+  for (const Eigen::Vector3d& point : points) values.push_back(measure(point));
+  const auto rank = static_cast<std::ptrdiff_t>(std::lround(share * static_cast<double>(values.size() - 1)));
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[static_cast<std::size_t>(rank)];
 }
 
 }  // namespace
 
-std::optional<Extent> extent_of(const MapSnapshot& map) {
-  if (map.points.empty() && map.trajectory.empty()) return std::nullopt;
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Vector3d high = -low;
-  std::vector<WorldPoint> samples = sample_points(map);
-  for (std::size_t axis = 0; axis < 3 && !samples.empty(); ++axis) {
-    low[static_cast<Eigen::Index>(axis)] = quantile(samples, axis, kOutermost);
-    high[static_cast<Eigen::Index>(axis)] = quantile(samples, axis, 1.0 - kOutermost);
+std::optional<Extent> extent_of(const MapSnapshot& map, const Eigen::Vector3d& up) {
+  const std::vector<Eigen::Vector3d> path = path_points(map);
+  std::vector<Eigen::Vector3d> points = sample_points(map);
+  if (points.empty()) points = path;
+  if (points.empty()) return std::nullopt;
+  Extent extent;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const auto along = [axis](const Eigen::Vector3d& p) { return p[axis]; };
+    extent.centre[axis] =
+        0.5 * (quantile(points, 0.5 * kOutermost, along) + quantile(points, 1.0 - 0.5 * kOutermost, along));
   }
-  for (const StampedPose& pose : map.trajectory) {
-    const Eigen::Vector3d at(pose.world_from_camera.translation_m.data());
-    low = low.cwiseMin(at);
-    high = high.cwiseMax(at);
-  }
-  return Extent{0.5 * (low + high), 0.5 * (high - low).norm()};
+  const auto distance = [&extent](const Eigen::Vector3d& p) { return (p - extent.centre).norm(); };
+  extent.radius_m = quantile(points, 1.0 - kOutermost, distance);
+  for (const Eigen::Vector3d& p : path) extent.radius_m = std::max(extent.radius_m, distance(p));
+  extent.floor_m = quantile(points, 0.5 * kOutermost, [&up](const Eigen::Vector3d& p) { return up.dot(p); });
+  return extent;
 }
 
 Eigen::Vector3d up_of(const MapSnapshot& map) {

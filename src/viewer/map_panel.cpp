@@ -40,6 +40,7 @@ void draw_layers(const MapFacts& facts, Layers& layers) {
   layer_switch("Trajectory", kTrajectory, layers.trajectory);
   if (facts.has_truth) layer_switch("Ground truth", kTruth, layers.truth);
   layer_switch("People", person_colour(2), layers.people);
+  layer_switch("Floor", kQuietText, layers.grid);
 }
 
 }  // namespace
@@ -60,21 +61,19 @@ void draw_map_panel(const Gui& gui, const MapFacts& facts, ImVec2 corner, ImVec2
 }
 
 PanelWishes draw_play_panel(const Gui& gui, const MapFacts& facts, ImVec2 corner, ImVec2 size, bool can_pause,
-                            RunControl& control) {
+                            bool paused) {
   PanelWishes wishes;
   const float margin = 14.0F * gui.scale();
   ImGui::SetNextWindowPos({corner.x + size.x - margin, corner.y + size.y - margin}, ImGuiCond_Always,
                           {1.0F, 1.0F});
   ImGui::Begin("play", nullptr, kOverlay);
   if (facts.ended) {
-    ImGui::TextUnformatted("The run has ended; close the window when you have seen enough");
+    ImGui::TextUnformatted("The run has ended");
     ImGui::SameLine();
   } else if (can_pause) {
-    if (choice(control.paused() ? "Go on" : "Pause", control.paused(), "Space")) {
-      control.paused() ? control.resume() : control.pause();
-    }
+    wishes.pause = choice(paused ? "Go on" : "Pause", paused, "Space");
     ImGui::SameLine();
-    if (choice("Step", false, "The next frame, then pause (N)")) control.step();
+    wishes.step = choice("Step", false, "The next frame, then pause (N)");
     ImGui::SameLine();
   }
   wishes.screenshot = choice("Screenshot", false, "Into the output folder (S)");

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <optional>
 
-#include "util/run_control.h"
 #include "viewer/gui.h"
 #include "viewer/scene_renderer.h"
 #include "viewer/view_control.h"
@@ -23,6 +22,8 @@ struct MapFacts {
 
 /// What the panels can ask for.
 struct PanelWishes {
+  bool pause = false;  ///< or go on
+  bool step = false;
   bool screenshot = false;
 };
 
@@ -31,6 +32,6 @@ void draw_map_panel(const Gui& gui, const MapFacts& facts, ImVec2 corner, ImVec2
                     ViewControl& view);
 /// Playing, stepping, screenshot, at the view's lower edge. can_pause: not with a live camera.
 [[nodiscard]] PanelWishes draw_play_panel(const Gui& gui, const MapFacts& facts, ImVec2 corner, ImVec2 size,
-                                          bool can_pause, RunControl& control);
+                                          bool can_pause, bool paused);
 
 }  // namespace cpslam::viewer

@@ -38,7 +38,7 @@ void OrbitCamera::set_angles(double yaw_rad, double pitch_rad) {
 
 void OrbitCamera::turn(double dx_px, double dy_px) {
   // The map follows the mouse.
-  set_angles(yaw_rad_ - kTurnRadPerPx * dx_px, pitch_rad_ + kTurnRadPerPx * dy_px);
+  set_angles(yaw_rad_ + kTurnRadPerPx * dx_px, pitch_rad_ + kTurnRadPerPx * dy_px);
 }
 
 void OrbitCamera::pan(double dx_px, double dy_px, double height_px) {

@@ -39,8 +39,8 @@ class OrbitCamera {
   Eigen::Vector3d up_ = -Eigen::Vector3d::UnitY();
   Eigen::Vector3d target_ = Eigen::Vector3d::Zero();
   double distance_m_ = 5.0;
-  double yaw_rad_ = 0.5;
-  double pitch_rad_ = 0.65;
+  double yaw_rad_ = 0.0;
+  double pitch_rad_ = 0.5;
 };
 
 }  // namespace cpslam::viewer

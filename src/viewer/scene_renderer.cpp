@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <string_view>
 
-#include "geometry/world_point.h"
 #include "viewer/scene_shaders.h"
 
 namespace cpslam::viewer {
@@ -13,8 +15,21 @@ namespace {
 
 constexpr double kKeyFrameDepthM = 0.12;
 constexpr double kCurrentDepthM = 0.3;
-constexpr float kPointM = 0.022F;
-constexpr double kArrowS = 0.6;  // the arrow of somebody's motion ends where he will be then
+constexpr float kPointM = 0.03F;
+constexpr std::size_t kMostPointsByProcessor = 40000;  // a pixel of a window shows but one
+constexpr float kInFront = 0.001F;                     // of the depth: before another point at the same place
+
+/// Whether OpenGL is Mesa's in software, on the cores that tracking needs.
+bool drawn_by_processor() {
+  const auto* const name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+  const std::string_view renderer = name != nullptr ? name : "";
+  return renderer.starts_with("llvmpipe") || renderer.starts_with("softpipe");
+}
+
+/// Size in the world, its bounds in the window, and by which share of the depth it counts as nearer.
+struct PointLook {
+  float size_m, least_px, most_px, nearer;
+};
 
 Eigen::Vector3f to_vector(Colour colour) {
   return Eigen::Vector3f(colour.red, colour.green, colour.blue) / 255.0F;
@@ -24,28 +39,20 @@ bool has_pose(const TrackResult& result) {
   return result.state != TrackingState::kNotInitialized && result.state != TrackingState::kLost;
 }
 
-WorldPoint centre_of(const std::vector<WorldPoint>& points) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const WorldPoint& p : points) sum += Eigen::Vector3d(p[0], p[1], p[2]);
-  return to_world_point(Eigen::Vector3d(sum / static_cast<double>(std::max<std::size_t>(points.size(), 1))));
-}
-
-Segment motion_arrow(const PersonShape& person, Colour colour) {
-  const WorldPoint from = centre_of(person.surface);
-  WorldPoint to = from;
-  for (std::size_t i = 0; i < 3; ++i) to[i] += static_cast<float>(kArrowS) * person.velocity_m_per_s[i];
-  return {{from, colour}, {to, colour}};
-}
-
 }  // namespace
 
 SceneRenderer::SceneRenderer(const CameraSettings& camera)
     : camera_(camera),
-      point_shader_(kPointVertexShader, kPointFragmentShader),
+      most_points_(drawn_by_processor() ? kMostPointsByProcessor : std::numeric_limits<std::size_t>::max()),
+      square_shader_(kPointVertexShader, kSquareFragmentShader),
+      round_shader_(kPointVertexShader, kRoundFragmentShader),
       line_shader_(kLineVertexShader, kLineFragmentShader) {}
 
 void SceneRenderer::set_map(const MapSnapshot& map, const Eigen::Vector3d& up, const Trajectory& truth) {
-  points_.set(height_coloured(map.points, up));
+  up_ = up;
+  const std::optional<Extent> extent = extent_of(map, up);
+  grid_.set(extent ? floor_grid(*extent, up, faded(kQuietText, 0.3)) : std::vector<Segment>());
+  points_.set(height_coloured(thinned(map.points, most_points_), up));
   keyframes_.set(frusta(map.keyframes, camera_, kKeyFrameDepthM, faded(kKeyFrame, 0.8)));
   covisibility_.set(edge_lines(map.covisibility, map.keyframes, faded(kCovisibility, 0.35)));
   spanning_tree_.set(edge_lines(map.spanning_tree, map.keyframes, kTree));
@@ -69,7 +76,8 @@ void SceneRenderer::set_people(const FrameSnapshot& frame) {
     const Colour colour = faded(person_colour(person.number), person.hidden ? 0.25 : 1.0);
     const std::vector<Vertex> his = coloured(person.surface, colour);
     surface.insert(surface.end(), his.begin(), his.end());
-    motion.push_back(motion_arrow(person, colour));
+    const std::vector<Segment> arrow = motion_arrow(person, up_, colour);
+    motion.insert(motion.end(), arrow.begin(), arrow.end());
     person_spacing_m_ = person.spacing_m;
   }
   people_.set(surface);
@@ -83,7 +91,7 @@ void SceneRenderer::draw(const OrbitCamera& eye, const cv::Rect& area_px, double
   glViewport(area_px.x, area_px.y, area_px.width, area_px.height);
   glEnable(GL_DEPTH_TEST);
   glEnable(GL_PROGRAM_POINT_SIZE);
-  glEnable(GL_BLEND);
+  glDisable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   draw_points(eye, area_px.height, aspect, scale, layers);
   glDepthMask(GL_FALSE);  // soft rims must not hide what is drawn later
@@ -94,26 +102,26 @@ void SceneRenderer::draw(const OrbitCamera& eye, const cv::Rect& area_px, double
 
 void SceneRenderer::draw_points(const OrbitCamera& eye, double height_px, double aspect, double scale,
                                 const Layers& layers) const {
-  const auto scale_f = static_cast<float>(scale);
-  point_shader_.use();
-  point_shader_.set("eye_from_world", eye.eye_from_world());
-  point_shader_.set("clip_from_eye", eye.clip_from_eye(aspect));
-  point_shader_.set("focal_px", static_cast<float>(OrbitCamera::focal_px(height_px)));
-  point_shader_.set("fade_from_m", static_cast<float>(eye.distance_m()));
-  point_shader_.set("background", to_vector(kBackground));
-  point_shader_.set("least_px", 1.8F * scale_f);
-  point_shader_.set("most_px", 7.0F * scale_f);
-  point_shader_.set("size_m", kPointM);
-  if (layers.points) {
-    points_.draw();
-    point_shader_.set("least_px", 3.0F * scale_f);
-    tracked_points_.draw();
-  }
-  if (layers.people) {
-    point_shader_.set("most_px", 60.0F * scale_f);
-    point_shader_.set("size_m", 1.5F * person_spacing_m_);
-    people_.draw();
-  }
+  const auto draw = [&](bool shown, const ShaderProgram& shader, const PointStore& points,
+                        const PointLook& look) {
+    if (!shown) return;
+    const auto px = static_cast<float>(scale);
+    shader.use();
+    shader.set("eye_from_world", eye.eye_from_world());
+    shader.set("clip_from_eye", eye.clip_from_eye(aspect));
+    shader.set("focal_px", static_cast<float>(OrbitCamera::focal_px(height_px)));
+    shader.set("fade_from_m", static_cast<float>(eye.distance_m()));
+    shader.set("background", to_vector(kBackground));
+    shader.set("size_m", look.size_m);
+    shader.set("least_px", px * look.least_px);
+    shader.set("most_px", px * look.most_px);
+    shader.set("nearer", look.nearer);
+    points.draw();
+  };
+  draw(layers.points, square_shader_, points_, {kPointM, 2.0F, 7.0F, 0.0F});
+  draw(layers.points, square_shader_, tracked_points_, {kPointM, 3.0F, 7.0F, kInFront});
+  glEnable(GL_BLEND);  // who is hidden is seen through
+  draw(layers.people, round_shader_, people_, {2.2F * person_spacing_m_, 3.0F, 60.0F, 0.0F});
 }
 
 void SceneRenderer::draw_lines(const OrbitCamera& eye, const cv::Rect& area_px, double scale,
@@ -128,6 +136,7 @@ void SceneRenderer::draw_lines(const OrbitCamera& eye, const cv::Rect& area_px, 
     line_shader_.set("width_px", static_cast<float>(scale * width_px));
     lines.draw();
   };
+  draw(layers.grid, grid_, 1.0);
   draw(layers.covisibility, covisibility_, 1.0);
   draw(layers.spanning_tree, spanning_tree_, 1.5);
   draw(layers.keyframes, keyframes_, 1.2);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <opencv2/core/types.hpp>
 
 #include "cpslam/settings.h"
@@ -12,6 +13,7 @@ namespace cpslam::viewer {
 
 /// What of the scene is shown.
 struct Layers {
+  bool grid = true;
   bool points = true;
   bool keyframes = true;
   bool covisibility = true;
@@ -22,7 +24,8 @@ struct Layers {
   bool people = true;
 };
 
-/// Draws snapshots of the map and of the current frame. Lives in the thread of its OpenGL context.
+/// Draws snapshots of the map and of the current frame; of a large map only some of the points where the
+/// processor has to draw them. Lives in the thread of its OpenGL context.
 class SceneRenderer {
  public:
   explicit SceneRenderer(const CameraSettings& camera);
@@ -41,10 +44,14 @@ class SceneRenderer {
   void set_people(const FrameSnapshot& frame);
 
   CameraSettings camera_;
-  ShaderProgram point_shader_;
+  std::size_t most_points_;
+  ShaderProgram square_shader_;
+  ShaderProgram round_shader_;
   ShaderProgram line_shader_;
   PointStore points_, tracked_points_, people_;
-  SegmentStore keyframes_, covisibility_, spanning_tree_, loops_, trajectory_, truth_, current_, motion_;
+  SegmentStore keyframes_, covisibility_, spanning_tree_, loops_, trajectory_, truth_, current_, motion_,
+      grid_;
+  Eigen::Vector3d up_ = -Eigen::Vector3d::UnitY();
   float person_spacing_m_ = 0.03F;
 };
 

@@ -2,7 +2,7 @@
 
 namespace cpslam::viewer {
 
-/// Round points, a pixel size each that shrinks with the distance, fading into the background.
+/// Points, a pixel size each that shrinks with the distance, fading into the background.
 inline constexpr const char* kPointVertexShader = R"(#version 330 core
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec4 colour;
@@ -13,19 +13,30 @@ uniform float size_m;
 uniform float least_px;
 uniform float most_px;
 uniform float fade_from_m;
+uniform float nearer;
 uniform vec3 background;
 out vec4 shown;
 void main() {
   vec4 in_eye = eye_from_world * vec4(position, 1.0);
   float distance_m = max(-in_eye.z, 1e-3);
   gl_Position = clip_from_eye * in_eye;
+  gl_Position.z -= nearer * gl_Position.w;
   gl_PointSize = clamp(focal_px * size_m / distance_m, least_px, most_px);
   float fade = 1.0 - exp(-0.5 * max(distance_m / fade_from_m - 1.0, 0.0));
   shown = vec4(mix(colour.rgb, background, 0.75 * fade), colour.a);
 }
 )";
 
-inline constexpr const char* kPointFragmentShader = R"(#version 330 core
+/// Square ones: for many small points, since what a software renderer has to throw away costs it most.
+inline constexpr const char* kSquareFragmentShader = R"(#version 330 core
+in vec4 shown;
+out vec4 pixel;
+void main() {
+  pixel = shown;
+}
+)";
+
+inline constexpr const char* kRoundFragmentShader = R"(#version 330 core
 in vec4 shown;
 out vec4 pixel;
 void main() {

@@ -12,6 +12,9 @@ namespace cpslam::viewer {
 namespace {
 
 constexpr std::size_t kEnoughToAlign = 30;  // poses; fewer make the truth jump about
+constexpr double kMostLines = 60.0;         // of the grid, to each side
+constexpr double kArrowS = 0.6;             // an arrow ends where somebody will be then
+constexpr double kShortestArrowM = 0.05;
 
 WorldPoint position(const StampedPose& pose) {
   const auto& t = pose.world_from_camera.translation_m;
@@ -55,6 +58,15 @@ void append_frustum(const SE3& world_from_camera, const CameraSettings& camera, 
 
 }  // namespace
 
+std::vector<WorldPoint> thinned(const std::vector<WorldPoint>& points, std::size_t most) {
+  const std::size_t step = (points.size() + most - 1) / most;
+  if (step <= 1) return points;
+  std::vector<WorldPoint> some;
+  some.reserve(points.size() / step + 1);
+  for (std::size_t i = 0; i < points.size(); i += step) some.push_back(points[i]);
+  return some;
+}
+
 std::vector<Vertex> height_coloured(const std::vector<WorldPoint>& points, const Eigen::Vector3d& up) {
   std::vector<Vertex> vertices;
   if (points.empty()) return vertices;
@@ -74,6 +86,28 @@ std::vector<Vertex> coloured(const std::vector<WorldPoint>& points, Colour colou
   return vertices;
 }
 
+std::vector<Segment> floor_grid(const Extent& extent, const Eigen::Vector3d& up, Colour colour) {
+  const auto n = static_cast<int>(std::min(kMostLines, std::ceil(1.2 * extent.radius_m)));
+  const Eigen::Vector3d right = up.unitOrthogonal();
+  const Eigen::Vector3d ahead = up.cross(right);
+  // Whole metres, so that the lines stand still while the map grows.
+  const double right_m = std::round(right.dot(extent.centre));
+  const double ahead_m = std::round(ahead.dot(extent.centre));
+  const auto vertex = [&](int i, int j) {
+    const double off = std::hypot(i, j) / (n + 1.0);
+    const Eigen::Vector3d p = (right_m + i) * right + (ahead_m + j) * ahead + extent.floor_m * up;
+    return Vertex{to_world_point(p), faded(colour, std::max(0.0, 1.0 - off))};
+  };
+  std::vector<Segment> segments;
+  for (int i = -n; i <= n; ++i) {
+    for (int j = -n; j < n; ++j) {
+      segments.push_back({vertex(i, j), vertex(i, j + 1)});
+      segments.push_back({vertex(j, i), vertex(j + 1, i)});
+    }
+  }
+  return segments;
+}
+
 std::vector<Segment> frustum(const SE3& world_from_camera, const CameraSettings& camera, double depth_m,
                              Colour colour) {
   std::vector<Segment> segments;
@@ -88,6 +122,22 @@ std::vector<Segment> frusta(const Trajectory& poses, const CameraSettings& camer
   for (const StampedPose& pose : poses)
     append_frustum(from_pose(pose.world_from_camera), camera, depth_m, colour, segments);
   return segments;
+}
+
+std::vector<Segment> motion_arrow(const PersonShape& person, const Eigen::Vector3d& up, Colour colour) {
+  const auto& v = person.velocity_m_per_s;
+  const Eigen::Vector3d way = kArrowS * Eigen::Vector3d(v[0], v[1], v[2]);
+  if (person.surface.empty() || way.norm() < kShortestArrowM) return {};
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();
+  for (const WorldPoint& p : person.surface) from += Eigen::Vector3d(p[0], p[1], p[2]);
+  from /= static_cast<double>(person.surface.size());
+  const Eigen::Vector3d tip = from + way;
+  const Eigen::Vector3d back = -0.3 * way;
+  const Eigen::Vector3d aside = 0.6 * back.cross(up);
+  const auto vertex = [colour](const Eigen::Vector3d& p) { return Vertex{to_world_point(p), colour}; };
+  return {{vertex(from), vertex(tip)},
+          {vertex(tip), vertex(tip + back + aside)},
+          {vertex(tip), vertex(tip + back - aside)}};
 }
 
 std::vector<Segment> edge_lines(const std::vector<KeyFrameEdge>& edges, const Trajectory& keyframes,

@@ -6,11 +6,11 @@
 namespace cpslam::viewer {
 namespace {
 
-constexpr double kYawRad = 0.5;
-constexpr double kPitchRad = 0.65;
+constexpr double kYawRad = -0.4;
+constexpr double kPitchRad = 0.7;
 constexpr double kGlidePerS = 5.0;
-constexpr double kNear = 0.002;      // of the distance: there
-constexpr double kTightness = 0.75;  // of the ball around the map: its corners are mostly empty
+constexpr double kNear = 0.002;  // of the distance: there
+constexpr double kRoom = 1.08;   // around the ball that holds the map, for the panels at the rims
 
 }  // namespace
 
@@ -29,8 +29,9 @@ void ViewControl::reset() {
 }
 
 void ViewControl::set_map(const MapSnapshot& map) {
-  extent_ = extent_of(map);
-  eye_.set_up(up_of(map));
+  const Eigen::Vector3d up = up_of(map);
+  extent_ = extent_of(map, up);
+  eye_.set_up(up);
 }
 
 void ViewControl::pan(double dx_px, double dy_px, double height_px) {
@@ -47,7 +48,7 @@ void ViewControl::zoom(double notches) {
 std::optional<ViewControl::Aim> ViewControl::aim() const {
   if (mode_ == ViewMode::kFollow && camera_) return Aim{*camera_, follow_distance_m_};
   if (mode_ == ViewMode::kOverview && extent_) {
-    const double radius_m = std::max(0.3, kTightness * extent_->radius_m);
+    const double radius_m = std::max(0.3, kRoom * extent_->radius_m);
     return Aim{extent_->centre, OrbitCamera::distance_to_see(radius_m, aspect_)};
   }
   return std::nullopt;

@@ -16,6 +16,8 @@ enum class ViewMode {
 /// Moves the eye: by itself, after the map or the camera, and by the mouse. No OpenGL in it.
 class ViewControl {
  public:
+  ViewControl() { reset(); }
+
   [[nodiscard]] const OrbitCamera& eye() const { return eye_; }
   [[nodiscard]] ViewMode mode() const { return mode_; }
   void set_mode(ViewMode mode);

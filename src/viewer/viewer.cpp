@@ -101,21 +101,25 @@ void Viewer::take_map(const MapSnapshot& map) {
 }
 
 void Viewer::request_snapshots() {
-  // Who goes step by step, or wants the very last frame's picture, wants to see every frame.
-  const bool every_one = control_.paused() || !options_.final_picture.empty();
-  const SnapshotWish wish = every_one ? SnapshotWish::kNow : SnapshotWish::kWhenCheap;
-  board_->request_frame(wish);
-  if (map_ == nullptr || seconds_since(map_taken_) > 1.0 / kMapsPerS) board_->request_map(wish);
+  const bool stepping = control_.paused();
+  // The picture at the end is to be of the very last frame; the last map comes in any case.
+  const bool every_frame = stepping || !options_.final_picture.empty();
+  board_->request_frame(every_frame ? SnapshotWish::kEvery : SnapshotWish::kWhenCheap);
+  if (stepping) {
+    board_->request_map(SnapshotWish::kEvery);
+  } else if (map_ == nullptr || seconds_since(map_taken_) > 1.0 / kMapsPerS) {
+    board_->request_map(SnapshotWish::kWhenCheap);
+  }
 }
 
 void Viewer::handle_keys() {
   for (const char key : window_.take_keys()) {
     switch (key) {
       case ' ':
-        if (options_.can_pause) control_.paused() ? control_.resume() : control_.pause();
+        if (options_.can_pause) pause_or_go_on();
         break;
       case 'N':
-        if (options_.can_pause) control_.step();
+        if (options_.can_pause) step();
         break;
       case 'S':
         wants_screenshot_ = true;
@@ -137,6 +141,17 @@ void Viewer::handle_keys() {
         break;
     }
   }
+}
+
+void Viewer::pause_or_go_on() {
+  control_.paused() ? control_.resume() : control_.pause();
+  request_snapshots();
+}
+
+void Viewer::step() {
+  control_.pause();
+  request_snapshots();  // before the frame is taken, so that it is shown
+  control_.step();
 }
 
 void Viewer::handle_mouse() {
@@ -194,7 +209,11 @@ void Viewer::lay_out() {
   ImGui::End();
   const ImVec2 size(whole.x - corner.x, whole.y);
   draw_map_panel(gui_, facts_, corner, size, layers_, view_);
-  wants_screenshot_ |= draw_play_panel(gui_, facts_, corner, size, options_.can_pause, control_).screenshot;
+  const PanelWishes wishes =
+      draw_play_panel(gui_, facts_, corner, size, options_.can_pause, control_.paused());
+  if (wishes.pause) pause_or_go_on();
+  if (wishes.step) step();
+  wants_screenshot_ |= wishes.screenshot;
 }
 
 void Viewer::save_screenshot() {

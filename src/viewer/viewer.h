@@ -54,6 +54,8 @@ class Viewer {
   void take_map(const MapSnapshot& map);
   void request_snapshots();
   void handle_keys();
+  void pause_or_go_on();
+  void step();
   void handle_mouse();
   [[nodiscard]] bool is_due() const;
   void draw();

@@ -16,9 +16,13 @@ std::string text(const char* format, ...) {
 }
 
 std::string grouped(std::size_t count) {
-  std::string digits = std::to_string(count);
-  for (std::size_t end = digits.size(); end > 3; end -= 3) digits.insert(end - 3, " ");
-  return digits;
+  const std::string digits = std::to_string(count);
+  std::string result;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) result += ' ';
+    result += digits[i];
+  }
+  return result;
 }
 
 void pill(const Gui& gui, const char* word, Colour colour) {

@@ -35,7 +35,7 @@ double spread(const cv::Mat& picture) {
 }
 
 TEST_F(ViewerRun, TheTrajectoryIsTheSameByteForByteAndThePictureIsThere) {
-  const OfficeSequence office("office_walking", 2.0);
+  const OfficeSequence office("walking_xyz", 2.0);
   const std::vector<std::string> how{"--sequential", "--boxes", office.file("person_boxes.txt")};
   ASSERT_EQ(office.track(how).exit_code, 0);
   const std::string alone = TemporaryFolder::content(office.result("CameraTrajectory.txt"));

@@ -66,19 +66,22 @@ TEST_F(PublisherTest, MakesTrackingWorkForThem) {
   EXPECT_EQ(maps, 2);
 }
 
-TEST_F(PublisherTest, NowMeansNow) {
-  for (int i = 0; i < 10; ++i) {
-    board->request_frame(SnapshotWish::kNow);
-    board->request_map(SnapshotWish::kNow);
-    offer(0.0);
-  }
+TEST_F(PublisherTest, EveryOneMeansEveryOneUntilAnotherWish) {
+  board->request_frame(SnapshotWish::kEvery);
+  board->request_map(SnapshotWish::kEvery);
+  for (int i = 0; i < 10; ++i) offer(0.0);
   EXPECT_EQ(frames, 10);
+  EXPECT_EQ(maps, 10);
+  board->request_map(SnapshotWish::kNone);
+  board->request_frame(SnapshotWish::kWhenCheap);
+  for (int i = 0; i < 10; ++i) offer(0.0);
+  EXPECT_EQ(frames, 10) << "ten of them have to be earned first";
   EXPECT_EQ(maps, 10);
 }
 
 TEST_F(PublisherTest, SaysWhatTheyCost) {
-  board->request_frame(SnapshotWish::kNow);
-  board->request_map(SnapshotWish::kNow);
+  board->request_frame(SnapshotWish::kEvery);
+  board->request_map(SnapshotWish::kEvery);
   offer(0.0);
   const std::vector<StageTimes> stages = timer.summary();
   ASSERT_EQ(stages.size(), 2U);

@@ -33,13 +33,13 @@ void request_both(SnapshotBoard& board, SnapshotWish wish) {
 }
 
 TEST(Snapshots, ShowTheFrameTheMapAndThePeople) {
-  const SimulatedFrames frames(12, "office_walking");
+  const SimulatedFrames frames(12, "walking_xyz");
   System system(frames.with_mode(true), nullptr);
   const auto board = std::make_shared<SnapshotBoard>();
   system.publish_to(board);
   TrackResult last;
   for (std::size_t i = 0; i < 12; ++i) {
-    request_both(*board, SnapshotWish::kNow);
+    request_both(*board, SnapshotWish::kEvery);
     last = track_with_boxes(system, frames, i);
   }
   const std::shared_ptr<const FrameSnapshot> frame = board->frame();
@@ -77,18 +77,18 @@ double distance_to_people(const sim::Simulation& simulation, int frame, const Ei
 
 TEST(Snapshots, PeopleStandWhereTheyWalk) {
   sim::SimulationOptions options;
-  options.preset = "office_walking";
+  options.preset = "walking_xyz";
   options.start_s = 2.0;
   options.n_frames = 12;
   halve(options.camera);
   sim::Simulation simulation(options);
-  const SimulatedFrames frames(12, "office_walking");
+  const SimulatedFrames frames(12, "walking_xyz");
   System system(frames.with_mode(true), nullptr);
   const auto board = std::make_shared<SnapshotBoard>();
   system.publish_to(board);
-  board->request_frame(SnapshotWish::kNow);
+  board->request_frame(SnapshotWish::kEvery);
   for (std::size_t i = 0; i < 12; ++i) {
-    if (i == 11) board->request_frame(SnapshotWish::kNow);
+    if (i == 11) board->request_frame(SnapshotWish::kEvery);
     track_with_boxes(system, frames, i);
   }
   // The map's world is the first camera's frame.
@@ -110,7 +110,7 @@ TEST(Snapshots, PeopleStandWhereTheyWalk) {
 }
 
 TEST(Snapshots, ChangeNothingInASequentialRun) {
-  const SimulatedFrames frames(40, "office_walking");
+  const SimulatedFrames frames(40, "walking_xyz");
   System alone(frames.with_mode(true), nullptr);
   System watched(frames.with_mode(true), nullptr);
   const auto board = std::make_shared<SnapshotBoard>();
@@ -119,7 +119,7 @@ TEST(Snapshots, ChangeNothingInASequentialRun) {
     track_with_boxes(alone, frames, i);
     // Every kind of request, and none.
     if (i % 3 == 1) request_both(*board, SnapshotWish::kWhenCheap);
-    if (i % 3 == 2) request_both(*board, SnapshotWish::kNow);
+    if (i % 3 == 2) request_both(*board, SnapshotWish::kEvery);
     track_with_boxes(watched, frames, i);
   }
   alone.shutdown();
@@ -149,10 +149,10 @@ TEST(Snapshots, ABoardCanBeTakenAwayAndOutlivesItsSystem) {
   {
     System system(frames.with_mode(false), nullptr);
     system.publish_to(board);
-    request_both(*board, SnapshotWish::kNow);
+    request_both(*board, SnapshotWish::kEvery);
     frames.track(system, 0);
     system.publish_to(nullptr);
-    request_both(*board, SnapshotWish::kNow);
+    request_both(*board, SnapshotWish::kEvery);
     frames.track(system, 1);
     EXPECT_EQ(board->frame()->index, 0U);
     system.shutdown();
@@ -170,7 +170,7 @@ TEST(Snapshots, AreConsistentWhileAllThreadsWork) {
   std::jthread viewer([&] {
     std::uint64_t last_index = 0;
     while (!done) {
-      request_both(*board, SnapshotWish::kNow);
+      request_both(*board, SnapshotWish::kEvery);
       const std::shared_ptr<const FrameSnapshot> frame = board->frame();
       const std::shared_ptr<const MapSnapshot> map = board->map();
       if (frame != nullptr) {

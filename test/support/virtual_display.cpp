@@ -36,16 +36,17 @@ pid_t start_server(int number_fd) {
   return error == 0 ? pid : -1;
 }
 
-/// What the server writes, up to the end of its line; shorter when it dies or takes too long.
-std::string read_line(int fd) {
-  std::string line;
+/// The display's name, from the line that the server writes when it is up; empty when it dies or takes too
+/// long.
+std::string read_name(int fd) {
+  std::string name = ":";
   char letter = 0;
-  while (line.empty() || line.back() != '\n') {
+  while (true) {
     pollfd readable{fd, POLLIN, 0};
-    if (poll(&readable, 1, kPatienceMs) <= 0 || read(fd, &letter, 1) != 1) break;
-    line += letter;
+    if (poll(&readable, 1, kPatienceMs) <= 0 || read(fd, &letter, 1) != 1) return {};
+    if (letter == '\n') return name;
+    name += letter;
   }
-  return line;
 }
 
 }  // namespace
@@ -58,10 +59,10 @@ VirtualDisplay::VirtualDisplay() {
   close(ends[1]);
   pid_ = start_server(high);
   close(high);
-  const std::string number = pid_ > 0 ? read_line(ends[0]) : std::string();
+  const std::string name = pid_ > 0 ? read_name(ends[0]) : std::string();
   close(ends[0]);
-  running_ = number.size() > 1 && number.back() == '\n';
-  if (running_) setenv("DISPLAY", (":" + number.substr(0, number.size() - 1)).c_str(), 1);
+  running_ = !name.empty();
+  if (running_) setenv("DISPLAY", name.c_str(), 1);
 }
 
 VirtualDisplay::~VirtualDisplay() {

@@ -10,9 +10,9 @@ namespace cpslam {
 namespace {
 
 /// Takes turns until there are no more; counts them.
-class Run {
+class Runner {
  public:
-  explicit Run(RunControl& control)
+  explicit Runner(RunControl& control)
       : thread_([this, &control] {
           while (control.wait_for_turn()) {
             ++turns_;
@@ -36,7 +36,7 @@ class Run {
 TEST(RunControl, RunsFreelyUntilQuit) {
   RunControl control;
   EXPECT_FALSE(control.paused());
-  Run run(control);
+  Runner run(control);
   run.wait_for(1000);
   control.quit();
   run.wait_for_end();
@@ -47,7 +47,7 @@ TEST(RunControl, RunsFreelyUntilQuit) {
 TEST(RunControl, PausedItTakesExactlyTheStepsAskedFor) {
   RunControl control;
   control.pause();
-  Run run(control);
+  Runner run(control);
   control.step();
   run.wait_for(1);
   control.step();
@@ -65,7 +65,7 @@ TEST(RunControl, AStepPausesARunUnderWay) {
   control.step();
   EXPECT_TRUE(control.paused());
   EXPECT_TRUE(control.wait_for_turn()) << "the step";
-  Run run(control);
+  Runner run(control);
   control.resume();
   run.wait_for(100);
   control.quit();
@@ -78,7 +78,7 @@ TEST(RunControl, ResumingForgetsStepsNotYetTaken) {
   control.step();
   control.resume();
   control.pause();
-  Run run(control);
+  Runner run(control);
   control.quit();
   run.wait_for_end();
   EXPECT_EQ(run.turns(), 0);
@@ -87,7 +87,7 @@ TEST(RunControl, ResumingForgetsStepsNotYetTaken) {
 TEST(RunControl, QuittingEndsAPausedRun) {
   RunControl control;
   control.pause();
-  Run run(control);
+  Runner run(control);
   control.quit();
   run.wait_for_end();
   EXPECT_FALSE(control.wait_for_turn());

@@ -7,18 +7,23 @@
 namespace cpslam::viewer {
 namespace {
 
+const Eigen::Vector3d kUp(0.0, -1.0, 0.0);
+
 TEST(Framing, NothingHasNoExtent) {
-  EXPECT_FALSE(extent_of({}).has_value());
+  EXPECT_FALSE(extent_of({}, kUp).has_value());
   EXPECT_EQ(up_of({}), Eigen::Vector3d(0.0, -1.0, 0.0));
 }
 
 TEST(Framing, TheRoomIsInsideAndStrayPointsDoNotCount) {
   MapSnapshot map = sample::map(5000, 5);
   for (int i = 0; i < 20; ++i) map.points.push_back({500.0F, 0.0F, 0.0F});
-  const Extent extent = extent_of(map).value();
+  const Extent extent = extent_of(map, kUp).value();
   EXPECT_NEAR(extent.centre.x(), 0.0, 0.2);
   EXPECT_NEAR(extent.centre.z(), 0.0, 0.2);
-  EXPECT_NEAR(extent.radius_m, 0.5 * Eigen::Vector3d(8.0, 2.6, 6.0).norm(), 0.3);
+  // Nearly to the corners.
+  EXPECT_GT(extent.radius_m, 0.8 * 0.5 * Eigen::Vector3d(8.0, 2.6, 6.0).norm());
+  EXPECT_LT(extent.radius_m, 1.0 * 0.5 * Eigen::Vector3d(8.0, 2.6, 6.0).norm());
+  EXPECT_NEAR(extent.floor_m, -1.4, 0.02);
 }
 
 TEST(Framing, TheTrajectoryIsAlwaysInside) {
@@ -26,7 +31,7 @@ TEST(Framing, TheTrajectoryIsAlwaysInside) {
   map.trajectory.push_back({0.0, {}});
   map.trajectory.push_back({1.0, {}});
   map.trajectory.back().world_from_camera.translation_m = {4.0, 0.0, 0.0};
-  const Extent extent = extent_of(map).value();
+  const Extent extent = extent_of(map, kUp).value();
   EXPECT_TRUE(extent.centre.isApprox(Eigen::Vector3d(2.0, 0.0, 0.0)));
   EXPECT_DOUBLE_EQ(extent.radius_m, 2.0);
 }

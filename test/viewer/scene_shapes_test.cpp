@@ -28,6 +28,17 @@ TEST(SceneShapes, PointsAreColouredByHeightWhateverIsUp) {
   EXPECT_EQ(height_coloured({{1, 1, 1}}, Eigen::Vector3d::UnitY()).size(), 1U) << "no height at all";
 }
 
+TEST(SceneShapes, ThinningKeepsNoMoreThanAskedForEvenly) {
+  std::vector<WorldPoint> points;
+  for (int i = 0; i < 1000; ++i) points.push_back({static_cast<float>(i), 0.0F, 0.0F});
+  EXPECT_EQ(thinned(points, 1000).size(), 1000U);
+  const auto some = thinned(points, 999);
+  EXPECT_EQ(some.size(), 500U);
+  EXPECT_EQ(some[499][0], 998.0F);
+  EXPECT_EQ(thinned(points, 1).size(), 1U);
+  EXPECT_TRUE(thinned({}, 10).empty());
+}
+
 TEST(SceneShapes, AFrustumIsWhatTheCameraSees) {
   const CameraSettings camera = sample::camera();
   const auto lines = frustum(SE3(), camera, 2.0, kSome);
@@ -53,6 +64,39 @@ TEST(SceneShapes, FrustaStandAtTheirPoses) {
   const auto lines = frusta(poses, sample::camera(), 0.1, kSome);
   ASSERT_EQ(lines.size(), 16U);
   EXPECT_LT((position(lines[8].from) - Eigen::Vector3d(5.0, 6.0, 7.0)).norm(), 1e-6);
+}
+
+TEST(SceneShapes, TheGridLiesOnTheFloorAndFadesOut) {
+  const Eigen::Vector3d up = Eigen::Vector3d(0.1, -1.0, 0.2).normalized();
+  const Extent extent{{1.0, 0.0, 2.0}, 3.0, -1.4};
+  const auto lines = floor_grid(extent, up, {200, 200, 200, 100});
+  ASSERT_FALSE(lines.empty());
+  for (const Segment& line : lines) {
+    EXPECT_NEAR(up.dot(position(line.from)), -1.4, 1e-5);
+    EXPECT_NEAR((position(line.to) - position(line.from)).norm(), 1.0, 1e-5);
+    const double off_m = (position(line.from) - extent.centre).norm();
+    if (off_m > 6.0) {
+      EXPECT_EQ(line.from.colour.alpha, 0);
+    } else if (off_m < 2.0) {
+      EXPECT_GT(line.from.colour.alpha, 20);
+    }
+  }
+  const Extent huge{{0.0, 0.0, 0.0}, 1e6, 0.0};
+  EXPECT_LT(floor_grid(huge, up, kSome).size(), 100000U);
+}
+
+TEST(SceneShapes, AnArrowShowsWhereSomebodyGoes) {
+  const Eigen::Vector3d up(0.0, -1.0, 0.0);
+  PersonShape person = sample::person(1, {0.0, 1.4, 0.0});
+  const auto arrow = motion_arrow(person, up, kSome);
+  ASSERT_EQ(arrow.size(), 3U);
+  const Eigen::Vector3d way = position(arrow[0].to) - position(arrow[0].from);
+  EXPECT_GT(way.x(), 0.3);
+  EXPECT_NEAR(way.normalized().x(), 1.0, 1e-5) << "along his velocity";
+  EXPECT_EQ(arrow[1].from.position, arrow[0].to.position);
+  person.velocity_m_per_s = {0.01F, 0.0F, 0.0F};
+  EXPECT_TRUE(motion_arrow(person, up, kSome).empty()) << "he stands";
+  EXPECT_TRUE(motion_arrow({}, up, kSome).empty());
 }
 
 TEST(SceneShapes, EdgesJoinTheirKeyframes) {

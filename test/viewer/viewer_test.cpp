@@ -98,8 +98,8 @@ TEST_F(ViewerTest, ShowsTheCamerasImageWithKeypointsBoxesAndPeople) {
   FrameSnapshot empty = frame;
   empty.view = {};
   const cv::Mat bare = camera_part(picture_of(sample::map(2000, 12), empty));
-  EXPECT_EQ(count(bare, kBox), 0);
-  EXPECT_LT(count(bare, kRemoved), 60) << "the legend's dot";
+  EXPECT_LT(count(bare, kBox), 60) << "the legend's dot";
+  EXPECT_LT(count(bare, kRemoved), 60);
   // Where somebody is, without a keypoint and within his box.
   const double scale = (kColumn - 28.0) / 640.0;
   const cv::Point his(14 + static_cast<int>(scale * 331), 48 + static_cast<int>(scale * 271));
@@ -183,7 +183,7 @@ TEST_F(ViewerTest, KeysPauseStepGoOnAndSaveThePicture) {
       user.press("space");
       ++stage;
     } else if (stage == 1 && control.paused()) {
-      EXPECT_EQ(board->frame_wish(), SnapshotWish::kNow) << "step by step, every frame is wanted";
+      EXPECT_EQ(board->frame_wish(), SnapshotWish::kEvery) << "step by step, every frame is wanted";
       user.press("n");
       ++stage;
     } else if (stage == 2 && control.paused()) {

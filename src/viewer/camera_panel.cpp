@@ -26,7 +26,7 @@ void CameraPanel::set_frame(std::shared_ptr<const FrameSnapshot> frame) {
 
 void CameraPanel::draw(const Gui& gui) const {
   draw_state(gui);
-  draw_picture();
+  draw_picture(gui);
   draw_legend(gui);
 }
 
@@ -44,7 +44,7 @@ void CameraPanel::draw_state(const Gui& gui) const {
                      result.time_s, result.n_inliers));
 }
 
-void CameraPanel::draw_picture() const {
+void CameraPanel::draw_picture(const Gui& gui) const {
   const float width = ImGui::GetContentRegionAvail().x;
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const cv::Size size = image_.size();
@@ -60,11 +60,11 @@ void CameraPanel::draw_picture() const {
   list.PushClipRect(corner, end, true);
   list.AddImage(image_.handle(), corner, end);
   if (!people_.empty()) list.AddImage(people_.handle(), corner, end);
-  draw_seen(corner, scale);
+  draw_seen(gui, corner, scale);
   list.PopClipRect();
 }
 
-void CameraPanel::draw_seen(ImVec2 corner, float scale) const {
+void CameraPanel::draw_seen(const Gui& gui, ImVec2 corner, float scale) const {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   for (const FrameView::SeenKeypoint& keypoint : frame_->view.keypoints) {
     // A pixel's area reaches half a pixel around its coordinates.
@@ -77,13 +77,8 @@ void CameraPanel::draw_seen(ImVec2 corner, float scale) const {
     const ImVec2 end(left + scale * static_cast<float>(box.width),
                      top + scale * static_cast<float>(box.height));
     list.AddRect({left, top}, end, to_u32(kBox), 4.0F, 0, 2.0F);
-    const std::string confidence = text("%.0f %%", 100.0 * box.confidence);
-    const ImVec2 extent = ImGui::CalcTextSize(confidence.c_str());
-    const ImVec2 label(std::max(left, corner.x) + 4.0F, std::max(top, corner.y) + 3.0F);
-    list.AddRectFilled({label.x - 2.0F, label.y - 1.0F},
-                       {label.x + extent.x + 3.0F, label.y + extent.y + 1.0F},
-                       to_u32(faded(kBackground, 0.65)), 3.0F);
-    list.AddText(label, to_u32(kBox), confidence.c_str());
+    label(gui, {std::max(left, corner.x) + 4.0F, std::max(top, corner.y) + 3.0F},
+          text("%.0f %%", 100.0 * box.confidence), kBox);
   }
 }
 

@@ -17,8 +17,8 @@ class CameraPanel {
 
  private:
   void draw_state(const Gui& gui) const;
-  void draw_picture() const;
-  void draw_seen(ImVec2 corner, float scale) const;
+  void draw_picture(const Gui& gui) const;
+  void draw_seen(const Gui& gui, ImVec2 corner, float scale) const;
   void draw_legend(const Gui& gui) const;
 
   std::shared_ptr<const FrameSnapshot> frame_;

@@ -68,6 +68,7 @@ PanelWishes draw_play_panel(const Gui& gui, const MapFacts& facts, ImVec2 corner
                           {1.0F, 1.0F});
   ImGui::Begin("play", nullptr, kOverlay);
   if (facts.ended) {
+    ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("The run has ended");
     ImGui::SameLine();
   } else if (can_pause) {

@@ -16,6 +16,7 @@ namespace {
 constexpr double kKeyFrameDepthM = 0.12;
 constexpr double kCurrentDepthM = 0.3;
 constexpr float kPointM = 0.03F;
+constexpr std::size_t kManyPoints = 15000;
 constexpr std::size_t kMostPointsByProcessor = 40000;  // a pixel of a window shows but one
 constexpr float kInFront = 0.001F;                     // of the depth: before another point at the same place
 
@@ -118,8 +119,9 @@ void SceneRenderer::draw_points(const OrbitCamera& eye, double height_px, double
     shader.set("nearer", look.nearer);
     points.draw();
   };
-  draw(layers.points, square_shader_, points_, {kPointM, 2.0F, 7.0F, 0.0F});
-  draw(layers.points, square_shader_, tracked_points_, {kPointM, 3.0F, 7.0F, kInFront});
+  const ShaderProgram& shader = points_.size() > kManyPoints ? square_shader_ : round_shader_;
+  draw(layers.points, shader, points_, {kPointM, 2.0F, 7.0F, 0.0F});
+  draw(layers.points, shader, tracked_points_, {kPointM, 3.0F, 7.0F, kInFront});
   glEnable(GL_BLEND);  // who is hidden is seen through
   draw(layers.people, round_shader_, people_, {2.2F * person_spacing_m_, 3.0F, 60.0F, 0.0F});
 }

@@ -36,13 +36,15 @@ void main() {
 }
 )";
 
+/// Round ones.
 inline constexpr const char* kRoundFragmentShader = R"(#version 330 core
 in vec4 shown;
 out vec4 pixel;
 void main() {
   vec2 off = 2.0 * gl_PointCoord - 1.0;
-  if (dot(off, off) > 1.0) discard;
-  pixel = shown;
+  float rim = dot(off, off);
+  if (rim > 1.0) discard;
+  pixel = vec4(shown.rgb * (1.0 - 0.3 * rim), shown.a);  // as of little balls
 }
 )";
 

@@ -59,8 +59,8 @@ void append_frustum(const SE3& world_from_camera, const CameraSettings& camera, 
 }  // namespace
 
 std::vector<WorldPoint> thinned(const std::vector<WorldPoint>& points, std::size_t most) {
+  if (points.size() <= most) return points;
   const std::size_t step = (points.size() + most - 1) / most;
-  if (step <= 1) return points;
   std::vector<WorldPoint> some;
   some.reserve(points.size() / step + 1);
   for (std::size_t i = 0; i < points.size(); i += step) some.push_back(points[i]);

@@ -61,8 +61,7 @@ void draw_graph(const Gui& gui, const TimingHistory& history, float height) {
     const float y = end.y - static_cast<float>(share) * size.y;
     list.AddLine({corner.x, y}, {end.x, y}, to_u32(faded(kQuietText, 0.25)));
   }
-  list.AddText(gui.small(), gui.small()->FontSize, {corner.x + 7.0F, corner.y + 4.0F}, to_u32(kQuietText),
-               text("%.0f ms", range_ms).c_str());
+  label(gui, {corner.x + 5.0F, corner.y + 4.0F}, text("%.0f ms", range_ms), kQuietText);
   list.PopClipRect();
 }
 

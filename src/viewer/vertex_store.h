@@ -18,6 +18,7 @@ class PointStore {
 
   void set(const std::vector<Vertex>& vertices);
   void draw() const;
+  [[nodiscard]] std::size_t size() const { return count_; }
 
  private:
   unsigned array_ = 0;

@@ -10,7 +10,7 @@ constexpr double kYawRad = -0.4;
 constexpr double kPitchRad = 0.7;
 constexpr double kGlidePerS = 5.0;
 constexpr double kNear = 0.002;  // of the distance: there
-constexpr double kRoom = 1.08;   // around the ball that holds the map, for the panels at the rims
+constexpr double kRoom = 1.0;    // around the map: its ball has corners to spare
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 #include "viewer/widgets.h"
 
 #include <array>
+#include <cfloat>
 #include <cstdarg>
 #include <cstdio>
 
@@ -36,6 +37,16 @@ void pill(const Gui& gui, const char* word, Colour colour) {
   list.AddText({at.x + margin.x, at.y + margin.y}, to_u32(kText), word);
   ImGui::Dummy({end.x - at.x, end.y - at.y});
   ImGui::PopFont();
+}
+
+void label(const Gui& gui, ImVec2 corner, const std::string& words, Colour colour) {
+  const float size = gui.small()->FontSize;
+  const ImVec2 extent = gui.small()->CalcTextSizeA(size, FLT_MAX, 0.0F, words.c_str());
+  const float margin = 3.0F * gui.scale();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({corner.x, corner.y}, {corner.x + extent.x + 2.0F * margin, corner.y + extent.y + 2.0F},
+                     to_u32(faded(kBackground, 0.7)), 3.0F);
+  list.AddText(gui.small(), size, {corner.x + margin, corner.y + 1.0F}, to_u32(colour), words.c_str());
 }
 
 void dot(Colour colour) {

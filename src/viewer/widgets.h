@@ -13,6 +13,8 @@ namespace cpslam::viewer {
 
 /// A word on a coloured ground.
 void pill(const Gui& gui, const char* word, Colour colour);
+/// Small words on a dark ground, anywhere in the current window; upper left corner.
+void label(const Gui& gui, ImVec2 corner, const std::string& words, Colour colour);
 /// A coloured dot before what follows on the line.
 void dot(Colour colour);
 /// Text in the quieter colour.

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
 #include "map/map_builder.h"
 
 namespace cpslam {
@@ -64,6 +69,24 @@ TEST_F(MapSnapshotTest, EdgesFollowWhenAKeyframeGoes) {
   }
   EXPECT_EQ(pairs(snapshot.loops), (Pairs{{2, 0}}));
   EXPECT_EQ(pairs(snapshot.covisibility), (Pairs{{2, 1}}));
+}
+
+TEST(MapSnapshot, IsOneStateOfAMapThatIsWrittenTo) {
+  constexpr std::size_t kPerKeyFrame = 50;
+  Map map{synthetic::pyramid()};
+  std::jthread mapper([&map](const std::stop_token& stop) {
+    for (int i = 0; i < 200 && !stop.stop_requested(); ++i) {
+      const std::unique_lock lock(map.mutex());
+      const KeyFrameId keyframe = test::add_keyframe(map, test::blank_features(kPerKeyFrame), at_x(i));
+      for (std::size_t k = 0; k < kPerKeyFrame; ++k)
+        map.add_point({0.0, 0.0, 2.0}, {keyframe, static_cast<int>(k)});
+    }
+  });
+  MapSnapshot snapshot;
+  while (snapshot.keyframes.size() < 200) {
+    snapshot = copy_for_viewer(map);
+    ASSERT_EQ(snapshot.points.size(), kPerKeyFrame * snapshot.keyframes.size());
+  }
 }
 
 TEST(MapSnapshot, OfAnEmptyMapIsEmpty) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <thread>
+
 namespace cpslam {
 namespace {
 
@@ -77,6 +80,34 @@ TEST_F(PublisherTest, EveryOneMeansEveryOneUntilAnotherWish) {
   for (int i = 0; i < 10; ++i) offer(0.0);
   EXPECT_EQ(frames, 10) << "ten of them have to be earned first";
   EXPECT_EQ(maps, 10);
+}
+
+TEST_F(PublisherTest, ViewersInOtherThreadsSeeWholeSnapshotsInTheirOrder) {
+  std::atomic<bool> done = false;
+  const auto watch = [&] {
+    std::uint64_t last_frame = 0;
+    std::uint64_t last_map = 0;
+    while (!done) {
+      board->request_frame(SnapshotWish::kEvery);
+      board->request_map(SnapshotWish::kEvery);
+      if (const auto frame = board->frame()) {
+        EXPECT_GE(frame->index, last_frame);
+        last_frame = frame->index;
+      }
+      if (const auto map = board->map()) {
+        EXPECT_GE(map->corrections, last_map);
+        last_map = map->corrections;
+      }
+    }
+  };
+  {
+    const std::jthread one(watch);
+    const std::jthread other(watch);
+    while (frames < 2000 || maps < 2000) offer(0.0);
+    done = true;
+  }
+  EXPECT_EQ(board->frame()->index, static_cast<std::uint64_t>(frames));
+  EXPECT_EQ(board->map()->corrections, static_cast<std::uint64_t>(maps));
 }
 
 TEST_F(PublisherTest, SaysWhatTheyCost) {

@@ -6,6 +6,7 @@
 #include "common/stop_signal.h"
 #include "cpslam/error.h"
 #include "io/trajectory_io.h"
+#include "util/thread_priority.h"
 #include "util/worker.h"
 #include "viewer/viewer.h"
 
@@ -41,10 +42,13 @@ int run_beside_viewer(const SlamOptions& options, const ViewedRun& run, SlamSess
   if (!options.viewer.wanted()) return work();
   const auto board = std::make_shared<SnapshotBoard>();
   session.publish_to(board);
-  viewer::Viewer window(viewer_options(options, run), board, control);
   int exit_code = 0;
   Worker<int> worker([&](int&&, const std::stop_token&) { exit_code = work(); }, 1);
   worker.start();
+  // Where there is no graphics card the window is drawn by the cores that tracking needs. Said before the
+  // driver starts threads of its own, and after the worker's was.
+  give_way_to_other_threads();
+  viewer::Viewer window(viewer_options(options, run), board, control);
   worker.push(0);
   try {
     window.run([&] { return worker.load() == 0; }, stop_requested);

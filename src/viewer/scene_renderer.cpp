@@ -14,7 +14,8 @@ namespace cpslam::viewer {
 namespace {
 
 constexpr double kKeyFrameDepthM = 0.12;
-constexpr double kCurrentDepthM = 0.3;
+constexpr double kLeastCurrentDepthM = 0.3;
+constexpr double kCurrentShare = 0.06;  // of the radius of the map, to be found in it
 constexpr float kPointM = 0.03F;
 constexpr std::size_t kManyPoints = 15000;
 constexpr std::size_t kMostPointsByProcessor = 40000;  // a pixel of a window shows but one
@@ -52,6 +53,7 @@ SceneRenderer::SceneRenderer(const CameraSettings& camera)
 void SceneRenderer::set_map(const MapSnapshot& map, const Eigen::Vector3d& up, const Trajectory& truth) {
   up_ = up;
   const std::optional<Extent> extent = extent_of(map, up);
+  if (extent) current_depth_m_ = std::max(kLeastCurrentDepthM, kCurrentShare * extent->radius_m);
   grid_.set(extent ? floor_grid(*extent, up, faded(kQuietText, 0.3)) : std::vector<Segment>());
   points_.set(height_coloured(thinned(map.points, most_points_), up));
   keyframes_.set(frusta(map.keyframes, camera_, kKeyFrameDepthM, faded(kKeyFrame, 0.8)));
@@ -65,7 +67,7 @@ void SceneRenderer::set_map(const MapSnapshot& map, const Eigen::Vector3d& up, c
 void SceneRenderer::set_frame(const FrameSnapshot& frame) {
   tracked_points_.set(coloured(frame.tracked_points, kTracked));
   current_.set(has_pose(frame.result)
-                   ? frustum(from_pose(frame.result.world_from_camera), camera_, kCurrentDepthM, kCamera)
+                   ? frustum(from_pose(frame.result.world_from_camera), camera_, current_depth_m_, kCamera)
                    : std::vector<Segment>());
   set_people(frame);
 }

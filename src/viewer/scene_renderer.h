@@ -53,6 +53,7 @@ class SceneRenderer {
       grid_;
   Eigen::Vector3d up_ = -Eigen::Vector3d::UnitY();
   float person_spacing_m_ = 0.03F;
+  double current_depth_m_ = 0.3;
 };
 
 }  // namespace cpslam::viewer

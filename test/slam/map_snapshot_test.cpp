@@ -20,11 +20,13 @@ SE3 at_x(double x) {
 class MapSnapshotTest : public testing::Test {
  protected:
   MapSnapshotTest() {
-    for (int i = 0; i < 4; ++i) ids.push_back(test::add_keyframe(map, test::blank_features(400), at_x(i)));
-    test::share_points(map, ids[0], ids[1], MapSnapshot::kStrongEdge);
-    test::share_points(map, ids[1], ids[2], MapSnapshot::kStrongEdge - 1);
-    test::share_points(map, ids[2], ids[3], MapSnapshot::kStrongEdge + 1);
-    for (const KeyFrameId id : ids) map.update_covisibility(id);
+    const std::vector<std::size_t> shared{MapSnapshot::kStrongEdge, MapSnapshot::kStrongEdge - 1,
+                                          MapSnapshot::kStrongEdge + 1};
+    for (int i = 0; i < 4; ++i) {
+      ids.push_back(test::add_keyframe(map, test::blank_features(400), at_x(i)));
+      if (i > 0) test::share_points(map, ids.end()[-2], ids.back(), shared[static_cast<std::size_t>(i - 1)]);
+      map.update_covisibility(ids.back());
+    }
     map.add_loop_edge(ids[3], ids[0]);
   }
   Map map{synthetic::pyramid()};

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <opencv2/imgproc.hpp>
 #include <string>
 #include <utility>
 
@@ -16,12 +16,23 @@ namespace {
 constexpr float kKeypointPx = 2.3F;
 constexpr float kPlaceholderAspect = 0.75F;
 
+/// A rectangle that holds the mask with its outlines.
+cv::Rect area_of_people(const cv::Mat& mask) {
+  if (mask.type() != CV_8UC1 || mask.empty()) return {};
+  const cv::Rect people = cv::boundingRect(mask);
+  if (people.empty()) return {};
+  return cv::Rect(people.x - 1, people.y - 1, people.width + 2, people.height + 2) &
+         cv::Rect({}, mask.size());
+}
+
 }  // namespace
 
 void CameraPanel::set_frame(std::shared_ptr<const FrameSnapshot> frame) {
   frame_ = std::move(frame);
   image_.set(frame_->image);
-  people_.set(mask_overlay(frame_->view.person_mask));
+  const cv::Mat& mask = frame_->view.person_mask;
+  people_area_ = area_of_people(mask);
+  people_.set(mask_overlay(mask(people_area_)));
 }
 
 void CameraPanel::draw(const Gui& gui) const {
@@ -59,18 +70,27 @@ void CameraPanel::draw_picture(const Gui& gui) const {
   }
   list.PushClipRect(corner, end, true);
   list.AddImage(image_.handle(), corner, end);
-  if (!people_.empty()) list.AddImage(people_.handle(), corner, end);
+  if (!people_.empty()) {
+    const auto at = [&](cv::Point p) {
+      return ImVec2(corner.x + scale * static_cast<float>(p.x), corner.y + scale * static_cast<float>(p.y));
+    };
+    list.AddImage(people_.handle(), at(people_area_.tl()), at(people_area_.br()));
+  }
   draw_seen(gui, corner, scale);
   list.PopClipRect();
 }
 
 void CameraPanel::draw_seen(const Gui& gui, ImVec2 corner, float scale) const {
   ImDrawList& list = *ImGui::GetWindowDrawList();
+  // A thousand dots with soft rims would be most of the window's triangles.
+  const ImDrawListFlags flags = list.Flags;
+  list.Flags &= ~ImDrawListFlags_AntiAliasedFill;
   for (const FrameView::SeenKeypoint& keypoint : frame_->view.keypoints) {
     // A pixel's area reaches half a pixel around its coordinates.
     const ImVec2 at(corner.x + scale * (keypoint.x + 0.5F), corner.y + scale * (keypoint.y + 0.5F));
     list.AddCircleFilled(at, kKeypointPx, to_u32(keypoint_colour(keypoint.kind)), 6);
   }
+  list.Flags = flags;
   for (const PersonBox& box : frame_->view.boxes) {
     const auto left = corner.x + scale * static_cast<float>(box.x);
     const auto top = corner.y + scale * static_cast<float>(box.y);

@@ -23,6 +23,7 @@ class CameraPanel {
 
   std::shared_ptr<const FrameSnapshot> frame_;
   Texture image_, people_;
+  cv::Rect people_area_;  // of the image, that people_ covers
 };
 
 }  // namespace cpslam::viewer

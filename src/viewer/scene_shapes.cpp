@@ -15,10 +15,15 @@ constexpr std::size_t kEnoughToAlign = 30;  // poses; fewer make the truth jump 
 constexpr double kMostLines = 60.0;         // of the grid, to each side
 constexpr double kArrowS = 0.6;             // an arrow ends where somebody will be then
 constexpr double kShortestArrowM = 0.05;
+constexpr double kShortestStepM = 0.01;  // of a path: a resting camera would draw thousands of lines
 
 WorldPoint position(const StampedPose& pose) {
   const auto& t = pose.world_from_camera.translation_m;
   return to_world_point(Eigen::Vector3d(t[0], t[1], t[2]));
+}
+
+double distance_m(const WorldPoint& a, const WorldPoint& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
 float height(const WorldPoint& point, const Eigen::Vector3f& up) {
@@ -153,9 +158,16 @@ std::vector<Segment> edge_lines(const std::vector<KeyFrameEdge>& edges, const Tr
 
 std::vector<Segment> path(const Trajectory& trajectory, Colour colour, double max_gap_s) {
   std::vector<Segment> segments;
+  if (trajectory.empty()) return segments;
+  WorldPoint from = position(trajectory.front());
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
-    if (trajectory[i].time_s - trajectory[i - 1].time_s > max_gap_s) continue;
-    segments.push_back({{position(trajectory[i - 1]), colour}, {position(trajectory[i]), colour}});
+    const WorldPoint to = position(trajectory[i]);
+    const bool gap = trajectory[i].time_s - trajectory[i - 1].time_s > max_gap_s;
+    const bool ends =
+        i + 1 == trajectory.size() || trajectory[i + 1].time_s - trajectory[i].time_s > max_gap_s;
+    if (!gap && !ends && distance_m(from, to) < kShortestStepM) continue;
+    if (!gap) segments.push_back({{from, colour}, {to, colour}});
+    from = to;
   }
   return segments;
 }

@@ -43,7 +43,7 @@ static_assert(sizeof(Vertex) == 16 && sizeof(Segment) == 32);
                                                 Colour colour);
 [[nodiscard]] std::vector<Segment> edge_lines(const std::vector<KeyFrameEdge>& edges,
                                               const Trajectory& keyframes, Colour colour);
-/// From pose to pose, not across gaps of more than max_gap_s.
+/// Along the poses in steps of a centimetre or more, not across gaps of more than max_gap_s.
 [[nodiscard]] std::vector<Segment> path(const Trajectory& trajectory, Colour colour, double max_gap_s = 1.0);
 
 /// The part of a ground truth that was taken while the estimate was, in the estimate's world; empty while

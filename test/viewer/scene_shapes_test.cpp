@@ -107,12 +107,38 @@ TEST(SceneShapes, EdgesJoinTheirKeyframes) {
   EXPECT_NEAR(lines[0].to.position[0], map.keyframes[1].world_from_camera.translation_m[0], 1e-6);
 }
 
-TEST(SceneShapes, APathHasGapsWhereTheCameraWasLost) {
+/// Positions on a line at these times.
+Trajectory along_x(const std::vector<std::pair<double, double>>& times_and_x) {
   Trajectory trajectory;
-  for (const double time_s : {0.0, 0.1, 0.2, 5.0, 5.1}) trajectory.push_back({time_s, {}});
-  EXPECT_EQ(path(trajectory, kSome).size(), 3U);
+  for (const auto& [time_s, x] : times_and_x) {
+    trajectory.push_back({time_s, {}});
+    trajectory.back().world_from_camera.translation_m[0] = x;
+  }
+  return trajectory;
+}
+
+TEST(SceneShapes, APathHasGapsWhereTheCameraWasLost) {
+  const auto lines = path(along_x({{0.0, 0.0}, {0.1, 0.1}, {0.2, 0.2}, {5.0, 1.0}, {5.1, 1.1}}), kSome);
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(lines[1].to.position[0], 0.2F);
+  EXPECT_EQ(lines[2].from.position[0], 1.0F);
   EXPECT_TRUE(path({}, kSome).empty());
-  EXPECT_TRUE(path({trajectory[0]}, kSome).empty());
+  EXPECT_TRUE(path(along_x({{0.0, 0.0}}), kSome).empty());
+}
+
+TEST(SceneShapes, APathOfTinyStepsIsDrawnInFewAndToItsEnds) {
+  std::vector<std::pair<double, double>> tiny;
+  for (int i = 0; i <= 1000; ++i) tiny.emplace_back(0.01 * i, 0.0001 * i);
+  tiny.emplace_back(20.0, 3.0);
+  tiny.emplace_back(20.1, 3.001);
+  const auto lines = path(along_x(tiny), kSome);
+  ASSERT_GE(lines.size(), 10U);
+  ASSERT_LE(lines.size(), 12U);
+  EXPECT_EQ(lines.front().from.position[0], 0.0F);
+  EXPECT_FLOAT_EQ(lines[lines.size() - 2].to.position[0], 0.1F) << "up to the gap";
+  EXPECT_FLOAT_EQ(lines.back().to.position[0], 3.001F);
+  for (std::size_t i = 1; i + 1 < lines.size(); ++i)
+    EXPECT_EQ(lines[i].from.position, lines[i - 1].to.position);
 }
 
 TEST(SceneShapes, TheTruthComesIntoTheEstimatesWorld) {

@@ -11,8 +11,8 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
 readonly PACKAGES=(
   g++ cmake ninja-build ccache
   libopencv-dev libeigen3-dev libceres-dev libsuitesparse-dev libcli11-dev nlohmann-json3-dev
-  libopenni2-dev
-  libgtest-dev libgmock-dev libbenchmark-dev
+  libopenni2-dev libglfw3-dev libimgui-dev libepoxy-dev fonts-inter
+  libgtest-dev libgmock-dev libbenchmark-dev xvfb libx11-dev
   python3 python3-numpy python3-matplotlib python3-pil python3-pytest
 )
 # Another path is for the tests.

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "camera_run.h"
@@ -10,6 +11,7 @@
 #include "common/run_program.h"
 #include "common/slam_session.h"
 #include "common/stop_signal.h"
+#include "common/viewer_session.h"
 #include "cpslam/error.h"
 #include "openni/rgbd_camera.h"
 #include "rgbd_openni2_options.h"
@@ -69,14 +71,20 @@ int main_program(const RgbdOpenni2Options& options) {
   SlamSession session(options.slam, report.settings, bar);
   const std::unique_ptr<SequenceRecorder> recorder = make_recorder(options, report.settings, sink);
   const StopSignal stop;
+  RunControl control;
+  const std::stop_callback on_signal(stop.token(), [&control] { control.quit(); });
   CameraRun run(options, session, recorder.get(), bar, report);
-  const int run_code = run.run(std::move(camera), stop.token());
-  if (recorder) {
-    recorder->finish();
-    report.live->recording = {recorder->folder(), recorder->recorded(), recorder->dropped(),
-                              recorder->complete()};
-  }
-  return std::max(run_code, session.finish("", report));
+  const auto work = [&] {
+    const int run_code = run.run(std::move(camera), control.token());
+    if (recorder) {
+      recorder->finish();
+      report.live->recording = {recorder->folder(), recorder->recorded(), recorder->dropped(),
+                                recorder->complete()};
+    }
+    return std::max(run_code, session.finish("", report));
+  };
+  const ViewedRun viewed{.settings = report.settings, .ground_truth = "", .can_pause = false};
+  return run_beside_viewer(options.slam, viewed, session, control, work);
 }
 
 }  // namespace

@@ -25,6 +25,9 @@ class FramePacer {
     return true;
   }
 
+  /// The clock stood still meanwhile.
+  void delay(std::chrono::steady_clock::duration pause) { start_ += pause; }
+
  private:
   static std::chrono::steady_clock::duration to_duration(double seconds) {
     return std::chrono::duration_cast<std::chrono::steady_clock::duration>(

@@ -8,6 +8,7 @@
 #include "common/run_program.h"
 #include "common/slam_session.h"
 #include "common/stop_signal.h"
+#include "common/viewer_session.h"
 #include "cpslam/error.h"
 #include "io/tum_sequence.h"
 #include "rgbd_tum_options.h"
@@ -43,14 +44,19 @@ int main_program(const RgbdTumOptions& options) {
   ProgressBar bar("tracking", entries.size(), !options.slam.quiet);
   SlamSession session(options.slam, report.settings, bar);
   install_stop_signal();
-  const int run_code = run_sequence(session, entries, bar, report);
   const std::string ground_truth = (std::filesystem::path(options.sequence) / "groundtruth.txt").string();
-  const int finish_code = session.finish(ground_truth, report);
+  RunControl control;
+  const auto work = [&] {
+    const int run_code = run_sequence(session, entries, control, bar, report);
+    return std::max(run_code, session.finish(ground_truth, report));
+  };
+  const int exit_code =
+      run_beside_viewer(options.slam, {report.settings, ground_truth}, session, control, work);
   if (report.statistics.frames == 0 && !report.interrupted) {
     throw InputError(options.sequence + ": none of its " + std::to_string(entries.size()) +
                      " frames could be used");
   }
-  return std::max(run_code, finish_code);
+  return exit_code;
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ void track(SlamSession& session, const RgbdImages& images) {
 
 }  // namespace
 
-int run_sequence(SlamSession& session, const std::vector<RgbdEntry>& entries, ProgressBar& bar,
-                 RunReport& report) {
+int run_sequence(SlamSession& session, const std::vector<RgbdEntry>& entries, RunControl& control,
+                 ProgressBar& bar, RunReport& report) {
   ReadAhead reader(entries, kReadAhead);
   LeftOut unusable("frame", bar);
   FramePacer pacer;
@@ -39,6 +39,9 @@ int run_sequence(SlamSession& session, const std::vector<RgbdEntry>& entries, Pr
       unusable.add(stamp_text(images.time_s), images.error);
       continue;
     }
+    const auto paused = control.wait_for_turn();
+    if (!paused) break;
+    pacer.delay(*paused);
     if (report.settings.realtime && !pacer.wait_for(images.time_s, 1.0 / report.settings.camera.fps)) {
       ++report.dropped;
       continue;
@@ -53,7 +56,7 @@ int run_sequence(SlamSession& session, const std::vector<RgbdEntry>& entries, Pr
       break;
     }
   }
-  report.interrupted = stop_requested();
+  report.interrupted = stop_requested() || control.quitting();
   report.unreadable = unusable.count();
   return report.unreadable > 0 ? kExitFailure : exit_code;
 }

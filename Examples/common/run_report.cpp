@@ -91,7 +91,8 @@ std::string to_json(const RunReport& report) {
                               {"count", stage.count},
                               {"p50_ms", stage.p50_ms},
                               {"p95_ms", stage.p95_ms},
-                              {"max_ms", stage.max_ms}});
+                              {"max_ms", stage.max_ms},
+                              {"total_ms", stage.total_ms}});
   }
   json["tracking_ms"] = nullptr;
   if (const StageTimes* track = find_stage(s, "track")) {

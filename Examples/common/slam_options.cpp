@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <optional>
 
+#include "common/viewer_session.h"
 #include "cpslam/error.h"
 #include "io/bundled_file.h"
 
@@ -30,6 +31,18 @@ void add_output_options(CLI::App& app, SlamOptions& options) {
       ->group(group);
 }
 
+void add_viewer_options(CLI::App& app, ViewerChoice& viewer) {
+  const std::string group = "Viewer";
+  app.add_flag("--viewer", viewer.show,
+               "Show the camera's picture and the map in a window; closing it ends the run, and what was\n"
+               "tracked is saved")
+      ->group(group);
+  app.add_option(
+         "--viewer-screenshot", viewer.final_picture,
+         "The window's picture at the end of the run, as PNG; the window closes then. Implies --viewer")
+      ->group(group);
+}
+
 std::string find_vocabulary(const std::string& name) {
   if (name != "-") return name;
   const std::string bundled = "Vocabulary/cpslam.voc";
@@ -51,6 +64,7 @@ void add_slam_options(CLI::App& app, SlamOptions& options, const std::string& re
   add_run_options(app, options, realtime_help);
   add_detector_options(app, options.detector);
   add_map_options(app, options.maps);
+  add_viewer_options(app, options.viewer);
   add_output_options(app, options);
 }
 
@@ -60,6 +74,7 @@ void check(SlamOptions& options) {
 }
 
 void apply(const SlamOptions& options, Settings& settings) {
+  if (options.viewer.wanted()) require_viewer();
   settings.sequential = options.sequential;
   settings.realtime = options.realtime;
   settings.seed = options.seed;

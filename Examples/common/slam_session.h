@@ -4,17 +4,19 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "common/picture_writer.h"
 #include "common/progress_bar.h"
 #include "common/run_report.h"
 #include "common/slam_options.h"
+#include "cpslam/snapshot.h"
 #include "cpslam/system.h"
 #include "detect/recording_detector.h"
 
 namespace cpslam::program {
 
-/// A System and what a program puts around it: messages, pictures, results. One thread.
+/// A System and what a program puts around it: messages, pictures, results. One thread at a time.
 class SlamSession {
  public:
   /// Makes the output folder. The bar must outlive the session. Throws InputError for a folder or file that
@@ -24,6 +26,9 @@ class SlamSession {
   /// Tracks a frame and hands it to all who want to see it. Throws what System::track() throws. The images
   /// are not to be written to any more.
   TrackResult track(const RgbdFrame& frame);
+
+  /// System::publish_to().
+  void publish_to(std::shared_ptr<SnapshotBoard> board) { system_->publish_to(std::move(board)); }
 
   /// Writes the trajectories, and the map where it is wanted, as they are now. False, with a message, when
   /// that fails.

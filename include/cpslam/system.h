@@ -12,6 +12,8 @@
 
 namespace cpslam {
 
+class SnapshotBoard;
+
 /// RGB-D SLAM: feed frames in the order of their stamps, read poses.
 ///
 /// Several Systems may live in one process. Members may be called from one thread at a time. The destructor
@@ -46,6 +48,10 @@ class System {
 
   /// What was seen in the last frame that track() took, to draw it.
   [[nodiscard]] FrameView frame_view() const;
+
+  /// From now on lays snapshots (cpslam/snapshot.h) down on this board whenever somebody asks for one there,
+  /// and the map once more at shutdown(); null: no longer. They change nothing in what is tracked and mapped.
+  void publish_to(std::shared_ptr<SnapshotBoard> board);
 
   /// Finishes the mapping of the frames so far and ends the threads. Idempotent; track() may not follow.
   void shutdown();

@@ -15,6 +15,8 @@ struct Pose {
   std::array<double, 3> translation_m{0.0, 0.0, 0.0};
 };
 
+using WorldPoint = std::array<float, 3>;  ///< metres, in the world of the trajectory
+
 /// A person, or another thing that moves by itself, in an image: pixels of the image as the camera took it,
 /// top-left corner; may reach over the image's border.
 struct PersonBox {
@@ -73,6 +75,7 @@ struct StageTimes {
   double p50_ms = 0.0;
   double p95_ms = 0.0;
   double max_ms = 0.0;
+  double total_ms = 0.0;
 };
 
 /// What the person detector and the people filter did.

@@ -9,6 +9,7 @@
 #include "detect/depth_grid.h"
 #include "detect/keypoint_filter.h"
 #include "detect/person_mask.h"
+#include "detect/person_shapes.h"
 
 namespace cpslam {
 namespace {
@@ -216,6 +217,11 @@ void People::show(FrameView& view) const {
   } else {
     view.person_mask = cv::Mat::zeros(depth_.size(), CV_8UC1);
   }
+}
+
+std::vector<PersonShape> People::shapes(const SE3& world_from_camera) const {
+  if (!active_ || !uses_tracks()) return {};
+  return person_shapes(tracks_.camera(), tracks_.tracks(), world_from_camera);
 }
 
 PeopleStatistics People::statistics() const {

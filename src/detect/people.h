@@ -9,6 +9,7 @@
 #include "camera/pinhole_camera.h"
 #include "cpslam/rgbd_frame.h"
 #include "cpslam/settings.h"
+#include "cpslam/snapshot.h"
 #include "cpslam/types.h"
 #include "detect/detector_thread.h"
 #include "detect/person_tracks.h"
@@ -51,6 +52,8 @@ class People {
 
   /// Boxes and mask of the last frame.
   void show(FrameView& view) const;
+  /// Where the people of the last frame are, for a viewer. Nobody but with PeopleFilter::kSdf.
+  [[nodiscard]] std::vector<PersonShape> shapes(const SE3& world_from_camera) const;
   [[nodiscard]] PeopleStatistics statistics() const;
 
  private:

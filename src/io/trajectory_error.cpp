@@ -28,23 +28,32 @@ double median_of_sorted(const std::vector<double>& values) {
   return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
+/// Positions at the same times.
+struct PositionPairs {
+  std::vector<Eigen::Vector3d> truth, estimate;
+};
+
+PositionPairs associate(const Trajectory& truth, const Trajectory& estimate, double max_difference_s) {
+  PositionPairs pairs;
+  for (const auto& [i, j] : associate_stamps(stamps_of(truth), stamps_of(estimate), max_difference_s)) {
+    pairs.truth.push_back(position(truth[i]));
+    pairs.estimate.push_back(position(estimate[j]));
+  }
+  return pairs;
+}
+
 }  // namespace
 
 TrajectoryError absolute_trajectory_error(const Trajectory& truth, const Trajectory& estimate,
                                           double max_difference_s) {
-  std::vector<Eigen::Vector3d> truth_points;
-  std::vector<Eigen::Vector3d> estimate_points;
-  for (const auto& [i, j] : associate_stamps(stamps_of(truth), stamps_of(estimate), max_difference_s)) {
-    truth_points.push_back(position(truth[i]));
-    estimate_points.push_back(position(estimate[j]));
-  }
+  const PositionPairs pairs = associate(truth, estimate, max_difference_s);
   TrajectoryError result;
-  result.pairs = truth_points.size();
+  result.pairs = pairs.truth.size();
   if (result.pairs < 3) return result;
-  const SE3 truth_from_estimate = align_points(estimate_points, truth_points);
+  const SE3 truth_from_estimate = align_points(pairs.estimate, pairs.truth);
   std::vector<double> errors;
-  for (std::size_t i = 0; i < truth_points.size(); ++i) {
-    errors.push_back((truth_points[i] - truth_from_estimate * estimate_points[i]).norm());
+  for (std::size_t i = 0; i < pairs.truth.size(); ++i) {
+    errors.push_back((pairs.truth[i] - truth_from_estimate * pairs.estimate[i]).norm());
   }
   std::sort(errors.begin(), errors.end());
   const auto count = static_cast<double>(errors.size());
@@ -53,6 +62,13 @@ TrajectoryError absolute_trajectory_error(const Trajectory& truth, const Traject
   result.median_m = median_of_sorted(errors);
   result.max_m = errors.back();
   return result;
+}
+
+std::optional<SE3> align_to_estimate(const Trajectory& truth, const Trajectory& estimate,
+                                     double max_difference_s) {
+  const PositionPairs pairs = associate(truth, estimate, max_difference_s);
+  if (pairs.truth.size() < 3) return std::nullopt;
+  return align_points(pairs.truth, pairs.estimate);
 }
 
 }  // namespace cpslam

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "cpslam/types.h"
+#include "geometry/se3.h"
 
 namespace cpslam {
 
@@ -19,5 +21,9 @@ struct TrajectoryError {
 /// closest first; rigid alignment without scale. Fewer than three pairs give pairs as found and zeros.
 [[nodiscard]] TrajectoryError absolute_trajectory_error(const Trajectory& truth, const Trajectory& estimate,
                                                         double max_difference_s = 0.02);
+
+/// The rigid transform estimate_from_truth of that alignment; nothing for fewer than three pairs.
+[[nodiscard]] std::optional<SE3> align_to_estimate(const Trajectory& truth, const Trajectory& estimate,
+                                                   double max_difference_s = 0.02);
 
 }  // namespace cpslam

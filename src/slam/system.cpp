@@ -1,5 +1,6 @@
 #include "cpslam/system.h"
 
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <shared_mutex>
@@ -11,8 +12,10 @@
 #include "slam/back_end.h"
 #include "slam/frame_input.h"
 #include "slam/map_archive.h"
+#include "slam/map_snapshot.h"
 #include "slam/places.h"
 #include "slam/rig.h"
+#include "slam/snapshot_publisher.h"
 #include "slam/tracking.h"
 
 namespace cpslam {
@@ -53,6 +56,7 @@ class System::Impl {
     const double interval_s = frame.time_s - last_time_s_.value_or(frame.time_s);
     last_time_s_ = frame.time_s;
     TrackResult result;
+    const auto start = std::chrono::steady_clock::now();
     {
       const auto scope = timer_.time("track");
       people_.begin(frame, tracking_.expected_motion(interval_s));
@@ -60,9 +64,11 @@ class System::Impl {
       result = tracking_.track(frame.time_s, std::move(features), back_end_.load());
       people_.end(tracking_.expected_motion(interval_s), is_tracked(result.state));
     }
+    const std::chrono::duration<double, std::milli> duration = std::chrono::steady_clock::now() - start;
     count(result);
     // After the clock has stopped: mapping in this thread, or waiting for the mapper, is not tracking.
     if (const KeyFrameId keyframe = tracking_.take_keyframe(); keyframe.valid()) back_end_.add(keyframe);
+    publish(frame.colour, result, duration.count());
     return result;
   }
 
@@ -71,6 +77,12 @@ class System::Impl {
     finished_ = true;
     people_.finish();
     back_end_.finish();
+    if (publisher_) publisher_->publish_map([this] { return map_snapshot(); });
+  }
+
+  void publish_to(std::shared_ptr<SnapshotBoard> board) {
+    publisher_.reset();
+    if (board) publisher_.emplace(std::move(board), timer_);
   }
 
   void save_map(const std::string& path) const {
@@ -149,6 +161,30 @@ class System::Impl {
     }
   }
 
+  void publish(const cv::Mat& colour, const TrackResult& result, double tracking_ms) {
+    if (!publisher_) return;
+    publisher_->offer(
+        tracking_ms, [&] { return frame_snapshot(colour, result); }, [&] { return map_snapshot(); });
+  }
+
+  [[nodiscard]] FrameSnapshot frame_snapshot(const cv::Mat& colour, const TrackResult& result) const {
+    FrameSnapshot snapshot;
+    snapshot.index = counts_.frames - 1;
+    snapshot.result = result;
+    snapshot.image = colour.clone();
+    snapshot.view = frame_view();
+    snapshot.tracked_points = tracking_.tracked_points();
+    if (is_tracked(result.state)) snapshot.people = people_.shapes(from_pose(result.world_from_camera));
+    snapshot.stages = timer_.summary();
+    return snapshot;
+  }
+
+  [[nodiscard]] MapSnapshot map_snapshot() const {
+    MapSnapshot snapshot = copy_for_viewer(map_);
+    snapshot.trajectory = tracking_.trajectory();
+    return snapshot;
+  }
+
   void count(const TrackResult& result) {
     if (loaded_) count_in_loaded_map(result, loaded_->statistics);
     ++counts_.frames;
@@ -195,6 +231,7 @@ class System::Impl {
   std::optional<double> last_time_s_;
   KeypointCandidates* candidates_ = nullptr;  // of the last frame; features_ owns them
   std::vector<std::uint8_t> kept_;            // parallel to them
+  std::optional<SnapshotPublisher> publisher_;
   bool finished_ = false;
 };
 
@@ -214,6 +251,9 @@ TrackResult System::track(const RgbdFrame& frame) {
 }
 FrameView System::frame_view() const {
   return impl_->frame_view();
+}
+void System::publish_to(std::shared_ptr<SnapshotBoard> board) {
+  impl_->publish_to(std::move(board));
 }
 void System::shutdown() {
   impl_->shutdown();

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "geometry/world_point.h"
 #include "slam/keyframe_inserter.h"
 #include "slam/motion_tracker.h"
 #include "slam/pose_refinement.h"
@@ -201,6 +202,15 @@ std::vector<bool> Tracking::tracked_keypoints() const {
   if (state_ != TrackingState::kTracked) return tracked;
   for (const PointMatch& match : last_.matches) tracked.push_back(match.kind == PointMatch::Kind::kMapPoint);
   return tracked;
+}
+
+std::vector<WorldPoint> Tracking::tracked_points() const {
+  std::vector<WorldPoint> points;
+  if (state_ != TrackingState::kTracked) return points;
+  for (const PointMatch& match : last_.matches) {
+    if (match.kind == PointMatch::Kind::kMapPoint) points.push_back(to_world_point(match.position_in_world));
+  }
+  return points;
 }
 
 SE3 Tracking::predicted_pose(double time_s) const {

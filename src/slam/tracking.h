@@ -37,6 +37,9 @@ class Tracking {
   /// frame got none.
   [[nodiscard]] std::vector<bool> tracked_keypoints() const;
 
+  /// Map points that the latest frame's pose stands on, as its matches saw them. Empty when it got none.
+  [[nodiscard]] std::vector<WorldPoint> tracked_points() const;
+
   [[nodiscard]] Trajectory trajectory() const { return trajectory_.resolve(map_); }
   /// Of this run and of those that the loaded map is from.
   [[nodiscard]] const std::vector<LoggedFrame>& logged_frames() const { return trajectory_.frames(); }

@@ -28,6 +28,7 @@ void DurationHistogram::add(double duration_ms) {
   ++buckets_[bucket];
   min_ms_ = count_ == 0 ? duration_ms : std::min(min_ms_, duration_ms);
   max_ms_ = std::max(max_ms_, duration_ms);
+  total_ms_ += duration_ms;
   ++count_;
 }
 
@@ -71,7 +72,7 @@ std::vector<StageTimes> StageTimer::summary() const {
   for (const Stage& stage : stages_) {
     const DurationHistogram& d = stage.durations;
     if (d.count() == 0) continue;
-    times.push_back({stage.name, d.count(), d.percentile_ms(0.5), d.percentile_ms(0.95), d.max_ms()});
+    times.push_back({stage.name, d.count(), d.percentile_ms(0.5), d.percentile_ms(0.95), d.max_ms(), d.total_ms()});
   }
   return times;
 }

@@ -13,14 +13,15 @@
 namespace cpslam {
 
 /// Durations counted in logarithmic buckets of 1 % width: about 9 kB however long the run, and percentiles
-/// right to 0.5 % from 0.1 us to 10^5 s (what lies outside counts as the nearest end). Maximum and minimum
-/// are exact.
+/// right to 0.5 % from 0.1 us to 10^5 s (what lies outside counts as the nearest end). Maximum, minimum
+/// and sum are exact.
 class DurationHistogram {
  public:
   /// Negative durations and NaN count as 0.
   void add(double duration_ms);
   [[nodiscard]] std::size_t count() const { return count_; }
   [[nodiscard]] double max_ms() const { return max_ms_; }
+  [[nodiscard]] double total_ms() const { return total_ms_; }
   /// Nearest-rank percentile: the smallest duration that at least `fraction` (0 to 1) of all do not exceed. 0
   /// without durations.
   [[nodiscard]] double percentile_ms(double fraction) const;
@@ -30,6 +31,7 @@ class DurationHistogram {
   std::size_t count_ = 0;
   double min_ms_ = 0.0;
   double max_ms_ = 0.0;
+  double total_ms_ = 0.0;
 };
 
 /// Collects how long the stages of the system take. Thread-safe; must outlive its scopes.

@@ -64,6 +64,9 @@ TEST(TrajectoryError, ARigidMoveOfTheEstimateIsNoError) {
     const TrajectoryError error = absolute_trajectory_error(truth, estimate);
     EXPECT_EQ(error.pairs, 40U);
     EXPECT_LT(error.max_m, 1e-12);
+    const std::optional<SE3> found = align_to_estimate(truth, estimate);
+    ASSERT_TRUE(found.has_value());
+    EXPECT_LT((found->inverse() * move).log().norm(), 1e-9);
   }
 }
 
@@ -73,6 +76,7 @@ TEST(TrajectoryError, FewerThanThreePairsHaveNoError) {
   const TrajectoryError error = absolute_trajectory_error(truth, estimate);
   EXPECT_EQ(error.pairs, 2U);
   EXPECT_EQ(error.rmse_m, 0.0);
+  EXPECT_FALSE(align_to_estimate(truth, estimate).has_value());
   EXPECT_EQ(absolute_trajectory_error(truth, estimate, 0.03).pairs, 3U);
   EXPECT_GT(absolute_trajectory_error(truth, estimate, 0.03).rmse_m, 0.1);
   EXPECT_EQ(absolute_trajectory_error({}, {}).pairs, 0U);

@@ -18,6 +18,9 @@ FORBIDDEN = [
     (re.compile(r"\bdetach\s*\("), "detaches a thread: join it"),
 ]
 
+# Only the viewer draws: everything else has to build, link and run where there is no OpenGL.
+GRAPHICS = re.compile(r"(GL|GLFW|epoxy|backends)/.*|imgui.*")
+
 # What the public headers may include beside cpslam/* and the standard library.
 PUBLIC_OUTSIDE = re.compile(r"opencv2/core(\.hpp|/.*)")
 STANDARD_HEADER = re.compile(r"[a-z_0-9]+")
@@ -61,6 +64,17 @@ def check_rooms(root):
                 yield f"{name}:{number}: write '{included}' with its room: room/file.h"
 
 
+def check_graphics(root):
+    for folder in ("src", "include", "Examples"):
+        for path in sources(root / folder):
+            name = path.relative_to(root)
+            if name.parts[:2] == ("src", "viewer"):
+                continue
+            for number, _, included in includes(path):
+                if GRAPHICS.fullmatch(included):
+                    yield f"{name}:{number}: only the room 'viewer' may include '{included}'"
+
+
 def check_public_headers(root):
     for path in sources(root / "include"):
         for number, _, included in includes(path):
@@ -86,7 +100,7 @@ def check_words(root):
 
 
 def check(root):
-    return [*check_rooms(root), *check_public_headers(root), *check_words(root)]
+    return [*check_rooms(root), *check_graphics(root), *check_public_headers(root), *check_words(root)]
 
 
 def main():

@@ -46,6 +46,12 @@ class CheckLayering(unittest.TestCase):
         self.expect({"include/cpslam/a.h": '#include "map/map.h"\n'}, "map/map.h")
         self.expect({"include/cpslam/a.h": "#include <opencv2/imgproc.hpp>\n"}, "opencv2/imgproc.hpp")
 
+    def test_graphics_outside_the_viewer(self):
+        self.expect({"src/slam/a.cpp": "#include <GLFW/glfw3.h>\n"}, "src/slam/a.cpp:1", "viewer")
+        self.expect({"Examples/a.cpp": "#include <imgui.h>\n"}, "Examples/a.cpp:1", "viewer")
+        viewer = {"src/CMakeLists.txt": "add_subdirectory(util)\nadd_subdirectory(map)\nadd_subdirectory(viewer)\n"}
+        self.assertEqual(self.problems({**viewer, "src/viewer/a.cpp": "#include <epoxy/gl.h>\n"}), [])
+
     def test_forbidden_words(self):
         for code in ("usleep(5);", "sleep(1);", "std::this_thread::sleep_for(x);", "exit(1);", "std::exit(1);",
                      "t.detach();"):

@@ -63,6 +63,7 @@ TEST(TrackingRun, StatisticsAreCompleteAndConsistent) {
     EXPECT_GT(stage.at("count"), 0);
     EXPECT_LE(stage.at("p50_ms"), stage.at("p95_ms"));
     EXPECT_LE(stage.at("p95_ms"), stage.at("max_ms"));
+    EXPECT_LE(stage.at("max_ms"), stage.at("total_ms"));
   }
   EXPECT_GT(stats.at("tracking_ms").at("p50"), 0.0);
   EXPECT_LE(stats.at("tracking_ms").at("p95"), stats.at("tracking_ms").at("max"));

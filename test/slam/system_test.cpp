@@ -11,10 +11,12 @@
 #include "cpslam/error.h"
 #include "geometry/se3.h"
 #include "slam/simulated_frames.h"
+#include "support/same_trajectory.h"
 
 namespace cpslam {
 namespace {
 
+using test::expect_same;
 using test::SimulatedFrames;
 
 /// How far the two frames' motion from the first one on lies from the truth, m and rad together.
@@ -24,15 +26,6 @@ double drift(const SimulatedFrames& frames, const TrackResult& first, std::size_
       frames.frames[i_first].world_from_camera.inverse() * frames.frames[i_later].world_from_camera;
   const SE3 found = from_pose(first.world_from_camera).inverse() * from_pose(later.world_from_camera);
   return (truth.inverse() * found).log().norm();
-}
-
-void expect_same(const Trajectory& a, const Trajectory& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    ASSERT_EQ(a[i].time_s, b[i].time_s);
-    ASSERT_EQ(a[i].world_from_camera.rotation_xyzw, b[i].world_from_camera.rotation_xyzw) << i;
-    ASSERT_EQ(a[i].world_from_camera.translation_m, b[i].world_from_camera.translation_m) << i;
-  }
 }
 
 TEST(SystemTest, TracksEveryFrameNearTheTruth) {

@@ -31,6 +31,7 @@ TEST(DurationHistogram, PercentilesByNearestRank) {
   EXPECT_NEAR(histogram.percentile_ms(0.51), 30.0, 0.15);
   EXPECT_NEAR(histogram.percentile_ms(0.95), 40.0, 0.2);
   EXPECT_EQ(histogram.max_ms(), 40.0);
+  EXPECT_EQ(histogram.total_ms(), 100.0);
 }
 
 TEST(DurationHistogram, PercentilesOfManyDurationsAreRightToHalfAPercent) {

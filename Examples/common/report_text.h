@@ -1,19 +1,16 @@
 #pragma once
 
-#include <array>
-#include <cstdio>
 #include <string>
 
 #include "cpslam/types.h"
+#include "util/format_text.h"
 
 namespace cpslam::program {
 
 /// A line of a report, by a format of printf's.
 template <typename... Values>
 [[nodiscard]] std::string line(const char* format, Values... values) {
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return std::string(text.data()) + "\n";
+  return format_text(format, values...) + "\n";
 }
 
 /// Null when the stage was never measured.

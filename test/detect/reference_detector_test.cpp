@@ -36,6 +36,7 @@ class ReferenceDetectorTest : public testing::Test {
     if (!std::filesystem::is_directory(clip_)) GTEST_SKIP() << "no clip " << clip_;
     settings_.kind = DetectorKind::kYolo;
     settings_.model_cfg = (model_ / "yolo-fastest-1.1-xl.cfg").string();
+    settings_.confidence_threshold = 0.3;  // of the recorded boxes
     settings_.model_weights = (model_ / "yolo-fastest-1.1-xl.weights").string();
     const std::vector<RgbdEntry> all = associate_sequence(clip_.string());
     for (std::size_t i = 0; i < all.size(); i += 19) sample_.push_back(all[i]);

@@ -8,7 +8,7 @@
 namespace cpslam {
 
 struct YoloThresholds {
-  double confidence = 0.3;
+  double confidence = 0.45;
   double overlap = 0.45;  ///< intersection over union
 };
 

@@ -70,7 +70,7 @@ TEST_F(DetectPeople, ListsAreRelativeToThemselvesAndKeepTheirNames) {
   const ProgramResult result = detect({list, "--output", boxes, "--report", folder_.file("report.json")});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(TemporaryFolder::content(boxes), line("images/c.png", {6, 9}) + line("images/a b.png", {1, 1}));
-  EXPECT_THAT(result.out, HasSubstr("pictures    3: 2 boxes of confidence 0.3"));
+  EXPECT_THAT(result.out, HasSubstr("pictures    3: 2 boxes of confidence 0.45"));
   EXPECT_THAT(result.out, HasSubstr("ms a picture (median)"));
   const nlohmann::json json = report();
   EXPECT_EQ(json["boxes"], 2);

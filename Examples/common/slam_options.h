@@ -37,8 +37,8 @@ struct SlamOptions {
 void add_vocabulary_argument(CLI::App& app, SlamOptions& options);
 
 /// Adds them to a program's options, in its help's groups "How to run", those of add_detector_options() and
-/// add_map_options(), "Viewer" and "Results and messages". realtime_help: what --realtime does there. The results are
-/// good after check().
+/// add_map_options(), "Viewer" and "Results and messages". realtime_help: what --realtime does there. The
+/// results are good after check().
 void add_slam_options(CLI::App& app, SlamOptions& options, const std::string& realtime_help);
 
 /// Completes what is only implied. Throws CLI::ValidationError for options that contradict each other.

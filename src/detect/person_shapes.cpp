@@ -34,6 +34,7 @@ std::vector<PersonShape> person_shapes(const GridCamera& camera, const std::vect
                                        const SE3& world_from_camera) {
   const FloatTransform transform(world_from_camera);
   std::vector<PersonShape> shapes;
+  shapes.reserve(tracks.size());
   for (const PersonTrack& track : tracks) shapes.push_back(shape_of(camera, track, transform));
   return shapes;
 }

@@ -72,7 +72,8 @@ std::vector<StageTimes> StageTimer::summary() const {
   for (const Stage& stage : stages_) {
     const DurationHistogram& d = stage.durations;
     if (d.count() == 0) continue;
-    times.push_back({stage.name, d.count(), d.percentile_ms(0.5), d.percentile_ms(0.95), d.max_ms(), d.total_ms()});
+    times.push_back(
+        {stage.name, d.count(), d.percentile_ms(0.5), d.percentile_ms(0.95), d.max_ms(), d.total_ms()});
   }
   return times;
 }

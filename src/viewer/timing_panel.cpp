@@ -22,6 +22,7 @@ double sum_of(const TimingParts& parts) {
 /// A round number of milliseconds that nearly all columns stay below.
 double range_of(const std::deque<TimingParts>& frames) {
   std::vector<double> sums;
+  sums.reserve(frames.size());
   for (const TimingParts& frame : frames) sums.push_back(sum_of(frame));
   if (sums.empty()) return kLeastRangeMs;
   const auto rank = static_cast<std::ptrdiff_t>(0.97 * static_cast<double>(sums.size() - 1));

@@ -8,7 +8,7 @@ namespace cpslam::viewer {
 namespace {
 
 const void* offset(std::size_t bytes) {
-  return reinterpret_cast<const void*>(static_cast<std::uintptr_t>(bytes));
+  return reinterpret_cast<const void*>(static_cast<std::uintptr_t>(bytes));  // NOLINT: OpenGL's convention
 }
 
 /// Position and colour of a Vertex that lies `start` bytes into elements of this size.

@@ -51,7 +51,7 @@ TEST(Alignment, GoodDataAreFine) {
 
 TEST(Alignment, AShiftOfDepthIsFound) {
   for (const cv::Point2d shift : {cv::Point2d(3.0, 0.0), cv::Point2d(-7.0, 5.0), cv::Point2d(0.0, -12.0)}) {
-    const Findings findings = look(30, handheld, 0.0, [&shift](ExaminedFrame& frame) {
+    const Findings findings = look(60, handheld, 0.0, [&shift](ExaminedFrame& frame) {
       warp_depth(frame.readings, 1.0, shift.x, shift.y);
     });
     EXPECT_NEAR(value_of(findings, kSpace, "right_px"), shift.x, 0.3);

@@ -30,7 +30,7 @@ TEST(CameraDoctor, AHealthyCameraIsFine) {
   EXPECT_THAT(result.out, HasSubstr("Virtual Camera"));
   EXPECT_THAT(result.out, HasSubstr("DepthMapFactor 1000")) << "as the camera says";
   EXPECT_EQ(count_lines(result.out, "error "), 0U) << result.out;
-  EXPECT_EQ(findings(camera).at("source"), "CP-SLAM Virtual Camera (virtual://0)");
+  EXPECT_EQ(findings(camera).at("source"), "Virtual Camera (virtual://0)");
   EXPECT_GT(findings(camera).at("examined"), 0);
 }
 

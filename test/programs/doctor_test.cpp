@@ -27,8 +27,9 @@ class Doctor : public testing::Test {
     const ProgramResult result = examine();
     EXPECT_EQ(result.exit_code, 2) << result.out << result.err;
     EXPECT_EQ(result.err, "");
-    EXPECT_EQ(json().at("worst"), "error");
-    for (const nlohmann::json& finding : json().at("findings")) {
+    const nlohmann::json report = json();
+    EXPECT_EQ(report.at("worst"), "error");
+    for (const nlohmann::json& finding : report.at("findings")) {
       if (finding.at("level") != "error" || finding.at("check") != check) continue;
       EXPECT_THAT(finding.at("what").get<std::string>(), HasSubstr(word));
       EXPECT_NE(finding.at("advice"), "");

@@ -1,10 +1,10 @@
 #include "rgbd_openni2_options.h"
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
 
 #include "common/option_checks.h"
 #include "common/run_program.h"
+#include "common/size_option.h"
 #include "openni/library.h"
 
 namespace cpslam::program {
@@ -19,18 +19,6 @@ std::string list_text() {
   if (text.empty()) return "no camera that OpenNI2 knows is plugged in";
   text.pop_back();
   return text;
-}
-
-void add_size_option(CLI::App& app, const std::string& group, CameraOptions& camera) {
-  const auto take = [&camera](const std::string& text) {
-    char rest = '\0';
-    const int read = std::sscanf(text.c_str(), "%5dx%5d%c", &camera.width, &camera.height, &rest);
-    if (read != 2 || camera.width < 1 || camera.height < 1)
-      throw CLI::ValidationError("--resolution", "'" + text + "' is not of the form 640x480");
-  };
-  app.add_option_function<std::string>("--resolution", take, "Of the camera's images, px; default 640x480")
-      ->type_name("WxH")
-      ->group(group);
 }
 
 void add_exposure_option(CLI::App& app, const std::string& group, CameraOptions& camera) {
@@ -59,7 +47,7 @@ void add_camera_options(CLI::App& app, RgbdOpenni2Options& options) {
   app.add_flag_callback(
          "--list", [] { throw CLI::CallForVersion(list_text(), 0); }, "List the cameras and end")
       ->group(group);
-  add_size_option(app, group, options.camera);
+  add_size_option(app, group, options.camera.width, options.camera.height);
   app.add_option("--fps", options.camera.fps, "Of the camera, images a second")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str()

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "diagnosis/edge_comparison.h"
@@ -10,6 +11,7 @@
 namespace cpslam::diagnosis {
 namespace {
 
+constexpr double kLargestWidth = 640.0;     // px; of larger pictures a smaller copy is looked at
 constexpr std::size_t kMostFrames = 400;    // kept, some 7 MB
 constexpr std::size_t kGrowthEvery = 10;    // frames
 constexpr std::size_t kFewestEdges = 2000;  // to say anything
@@ -100,11 +102,15 @@ void AlignmentCheck::keep(FrameAgreement frame) {
 
 void AlignmentCheck::add(const ExaminedFrame& frame) {
   width_px_ = frame.grey.cols;
-  motion_.add(frame.time_s, frame.grey);
-  if (n_frames_ % kGrowthEvery == 0) growth_.add(frame.grey, frame.readings);
-  AgreementMap map = EdgeComparison::make_map(frame.grey.size());
+  scale_ = std::min(1.0, kLargestWidth / width_px_);
+  cv::Mat grey, readings;
+  cv::resize(frame.grey, grey, {}, scale_, scale_, cv::INTER_AREA);
+  cv::resize(frame.readings, readings, grey.size(), 0.0, 0.0, cv::INTER_NEAREST);
+  motion_.add(frame.time_s, grey);
+  if (n_frames_ % kGrowthEvery == 0) growth_.add(grey, readings);
+  AgreementMap map = EdgeComparison::make_map(grey.size());
   if (!whole_) whole_ = map;
-  EdgeComparison(frame.grey, frame.readings).add_to(map);
+  EdgeComparison(grey, readings).add_to(map);
   whole_->add(map);
   map.centre();
   keep({frame.time_s, frame.depth_time_s, std::move(map)});
@@ -121,6 +127,7 @@ Finding AlignmentCheck::registration(const std::optional<DepthDelay>& delay) con
   if (delay && (!peak || delay->with_delay.contrast > peak->contrast)) peak = delay->with_delay;
   if (whole_->n_edges() < kFewestEdges || !peak || peak->contrast < kLeastContrast)
     return unknown_registration(whole_->n_edges(), n_frames_);
+  peak->at_px /= scale_;
   return shifted_registration(*peak, width_px_);
 }
 

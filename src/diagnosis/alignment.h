@@ -28,6 +28,7 @@ class AlignmentCheck : public FrameCheck {
   GrowthSearch growth_;
   std::optional<AgreementMap> whole_;   // over all frames
   std::vector<FrameAgreement> frames_;  // every n_skip_-th
+  double scale_ = 1.0;                  // of the pictures that are compared
   double width_px_ = 0.0;
   std::size_t n_frames_ = 0;
   std::size_t n_skip_ = 1;

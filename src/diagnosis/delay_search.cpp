@@ -54,12 +54,22 @@ class DelayStack {
   std::vector<AgreementMap> maps_;  // by delay
 };
 
-/// The delay at the top of a parabola fitted to the profile around its highest value; empty at the ends or
-/// where it is not a top.
+constexpr int kReach = 6;  // steps to either side of the highest: a frame
+
+/// Whether the profile falls to both sides of a step. Of an even motion one delay is as good as another,
+/// with another shift: it does not.
+bool is_top(const Profile& profile, int step) {
+  constexpr double kLeastFall = 0.03;  // as a share
+  const auto at = [&profile](int i) { return profile[static_cast<std::size_t>(i)]; };
+  if (step < kReach || step > 2 * kSteps - kReach) return false;
+  return std::max(at(step - kReach), at(step + kReach)) < (1.0 - kLeastFall) * at(step);
+}
+
+/// The delay at the top of a parabola fitted to the profile around its highest value; empty when it has no
+/// clear top.
 std::optional<double> top_of(const Profile& profile) {
-  constexpr int kReach = 6;  // steps to either side: a frame
   const int highest = static_cast<int>(std::max_element(profile.begin(), profile.end()) - profile.begin());
-  if (highest < kReach || highest > 2 * kSteps - kReach) return std::nullopt;
+  if (!is_top(profile, highest)) return std::nullopt;
   double x2 = 0.0, x4 = 0.0, y = 0.0, xy = 0.0, x2y = 0.0;
   for (int x = -kReach; x <= kReach; ++x) {
     const double value = profile[static_cast<std::size_t>(highest + x)];

@@ -26,7 +26,7 @@ constexpr std::array kKnownFactors{KnownFactor{1000.0, "millimetres: OpenNI2, Re
 
 /// Rooms and people in them, as a camera of this kind sees them.
 bool is_plausible(const Spread& metres) {
-  return metres.near >= 0.15 && metres.median >= 0.4 && metres.median <= 8.0 && metres.far <= 15.0;
+  return metres.near >= 0.2 && metres.median >= 0.4 && metres.median <= 8.0 && metres.far <= 15.0;
 }
 
 std::string factor_text(const KnownFactor& known, const Spread& readings) {

@@ -12,6 +12,11 @@
 #include "util/format_text.h"
 
 namespace cpslam::diagnosis {
+namespace {
+
+constexpr int kSmallestSide = 32;  // px
+
+}  // namespace
 
 Examination::Examination(const std::optional<CameraSettings>& camera) : camera_(camera) {
   checks_.push_back(std::make_unique<DepthScaleCheck>(camera ? std::optional<double>(camera->depth_map_factor)
@@ -30,6 +35,11 @@ void Examination::add(const RgbdImages& images) {
   ++n_frames_;
   if (!images.error.empty()) {
     reject(images.error);
+    return;
+  }
+  if (std::min(images.colour.cols, images.colour.rows) < kSmallestSide) {
+    reject(format_text("the pair at %.6f has %s px: too small to be looked at", images.time_s,
+                       size_text(images.colour.size()).c_str()));
     return;
   }
   if (size_.empty()) size_ = images.colour.size();

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kSteps = 12;  // to either side
 constexpr double kStep = 0.01;
+constexpr int kReducedWidth = 320;  // px
 
 double growth_of(std::size_t step) {
   return kStep * (static_cast<double>(step) - static_cast<double>(kSteps));
@@ -19,11 +20,12 @@ double growth_of(std::size_t step) {
 }  // namespace
 
 void GrowthSearch::add(const cv::Mat& grey, const cv::Mat& readings) {
-  cv::Mat half_grey, half_readings;
-  cv::resize(grey, half_grey, {}, 0.5, 0.5, cv::INTER_AREA);
-  cv::resize(readings, half_readings, half_grey.size(), 0.0, 0.0, cv::INTER_NEAREST);
-  if (maps_.empty()) maps_.assign(2 * kSteps + 1, EdgeComparison::make_map(half_grey.size()));
-  const EdgeComparison comparison(half_grey, half_readings);
+  cv::Mat small_grey, small_readings;
+  const double scale = std::min(1.0, static_cast<double>(kReducedWidth) / grey.cols);
+  cv::resize(grey, small_grey, {}, scale, scale, cv::INTER_AREA);
+  cv::resize(readings, small_readings, small_grey.size(), 0.0, 0.0, cv::INTER_NEAREST);
+  if (maps_.empty()) maps_.assign(2 * kSteps + 1, EdgeComparison::make_map(small_grey.size()));
+  const EdgeComparison comparison(small_grey, small_readings);
   for (std::size_t i = 0; i < maps_.size(); ++i) comparison.add_to(maps_[i], growth_of(i));
 }
 

@@ -14,7 +14,7 @@ struct DepthGrowth {
 };
 
 /// By how much depth must be enlarged to meet colour, up to 12 %: cameras of different fields of view, which
-/// registration makes up for. Looks at pictures of half the size.
+/// registration makes up for. Looks at pictures reduced to a width of 320 px.
 class GrowthSearch {
  public:
   /// Images as for EdgeComparison.

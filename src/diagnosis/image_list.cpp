@@ -23,13 +23,18 @@ void read_rows(TextTable& table, const std::string& sequence_dir, ImageList& lis
   }
 }
 
+/// "rgb/1305031453.359684.png"
+std::string in_folder(const std::filesystem::path& path) {
+  return (path.parent_path().filename() / path.filename()).string();
+}
+
 void add_missing_files(const ImageList& list, Findings& findings) {
   std::size_t n_missing = 0;
   std::string first;
   for (const std::string& path : list.paths) {
     std::error_code ignored;
     if (std::filesystem::is_regular_file(path, ignored)) continue;
-    if (n_missing++ == 0) first = path;
+    if (n_missing++ == 0) first = in_folder(path);
   }
   if (n_missing == 0) return;
   const bool many = 20 * n_missing > list.paths.size();

@@ -195,6 +195,23 @@ cv::Mat People::excluded() const {
   return mask;
 }
 
+cv::Mat People::moving() const {
+  if (!active_) return {};
+  cv::Mat mask;
+  if (uses_tracks()) {
+    mask = person_mask(tracks_.camera(), tracks_.tracks(), depth_, metres_per_unit_);
+  } else {
+    mask = cv::Mat::zeros(depth_.size(), CV_8UC1);
+    for (const PersonBox& box : boxes_) {
+      const cv::Rect2d inside =
+          cv::Rect2d(box.x, box.y, box.width, box.height) & cv::Rect2d({}, cv::Size2d(mask.size()));
+      if (inside.width > 0.0 && inside.height > 0.0) mask(cv::Rect(inside) & cv::Rect({}, mask.size())).setTo(255);
+    }
+  }
+  if (!moving_mask_.empty()) mask.setTo(255, moving_mask_);
+  return mask;
+}
+
 void People::end(const SE3& motion, bool pose_known) {
   counts_.keypoints += last_candidates_;
   counts_.removed_keypoints += last_removed_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -339,6 +340,39 @@ TEST_F(PeopleTest, CanDeleteWholeBoxes) {
   people.show(view);
   EXPECT_EQ(view.person_mask.size(), cv::Size(640, 480));
   EXPECT_EQ(cv::countNonZero(view.person_mask), 0);
+}
+
+TEST_F(PeopleTest, WhatMovesIsUnknownWhileNobodyIsLookedFor) {
+  People people = make();
+  run(people, next_frame());
+  EXPECT_TRUE(people.moving().empty());
+}
+
+TEST_F(PeopleTest, WhatMovesArePeopleAndTheCallersMask) {
+  People people = make();
+  RgbdFrame frame = next_frame({box});
+  frame.moving_mask = cv::Mat(480, 640, CV_8UC1, cv::Scalar(0));
+  const cv::Rect corner(600, 10, 30, 20);
+  frame.moving_mask(corner).setTo(1);
+  run(people, frame);
+  const cv::Mat moving = people.moving();
+  ASSERT_EQ(moving.type(), CV_8UC1);
+  EXPECT_EQ(cv::countNonZero(moving(corner)), corner.area());
+  const cv::Mat1b person = close.owner != 0;
+  cv::Mat1b on_person;
+  cv::bitwise_and(person, moving != 0, on_person);
+  EXPECT_GT(cv::countNonZero(on_person), 0.95 * cv::countNonZero(person));
+  EXPECT_LT(cv::countNonZero(moving), 1.15 * cv::countNonZero(person) + corner.area());
+}
+
+TEST_F(PeopleTest, WhereOnlyBoxesAreKnownAllInThemMoves) {
+  settings.people.filter = PeopleFilter::kBoxes;
+  People people = make();
+  run(people, next_frame({{600.5, 470.5, 1e300, 1e300}, {-50.0, 10.0, 60.0, 20.0}, {0.0, 0.0, -3.0, NAN}}));
+  const cv::Mat moving = people.moving();
+  EXPECT_EQ(cv::countNonZero(moving), 40 * 10 + 10 * 20);
+  EXPECT_EQ(moving.at<std::uint8_t>(479, 639), 255);
+  EXPECT_EQ(moving.at<std::uint8_t>(29, 9), 255);
 }
 
 TEST_F(PeopleTest, CanFilterAsPublished) {

@@ -60,7 +60,10 @@ void write_octomap(const std::string& path, double resolution_m, std::span<const
   tree.updateInnerOccupancy();
   tree.prune();
   std::ostringstream bytes;
-  if (!tree.writeBinary(bytes)) throw RunError("cannot write '" + path + "': OctoMap failed");
+  // OcTree::writeBinary would do the same and print what it does.
+  bytes << "# Octomap OcTree binary file\nid " << tree.getTreeType() << "\nsize " << tree.size() << "\nres "
+        << resolution_m << "\ndata\n";
+  tree.writeBinaryData(bytes);
   write_file_atomically(path, bytes.view());
 }
 

@@ -72,6 +72,7 @@ DenseTruth::DenseTruth(const sim::SimulationOptions& options, double max_depth_m
 
 DenseTruth::Nearest DenseTruth::nearest_surface(const Eigen::Vector3f& point) const {
   Nearest nearest;
+  float best_sight = 0.0F;
   for (const View& view : views_) {
     const Eigen::Vector3f in_camera = (view.world_from_camera.inverse() * point.cast<double>()).cast<float>();
     const int pixel = camera_.pixel_of(in_camera);
@@ -81,13 +82,18 @@ DenseTruth::Nearest DenseTruth::nearest_surface(const Eigen::Vector3f& point) co
     if (depth_m <= 0.0F) continue;
     const cv::Vec3f& n = view.normal(at);
     const Eigen::Vector3f normal(n[0], n[1], n[2]);
-    // To the plane through the surface where the ray meets it, unless that is a rim: then along the ray.
     const Eigen::Vector3f off = in_camera - camera_.ray(pixel) * depth_m;
-    const float along_ray_m = std::abs(in_camera.z() - depth_m);
-    const float error_m =
-        along_ray_m < 4.0F * kOnSurfaceM ? std::min(along_ray_m, std::abs(normal.dot(off))) : along_ray_m;
-    if (error_m < nearest.error_m)
-      nearest = {error_m, view.world_from_camera.rotation.cast<float>() * normal};
+    // From the plane through the surface where the ray meets it: seen aslant, that is far along the ray.
+    const float plane_m = std::abs(normal.dot(off));
+    const float along_ray_m = std::abs(off.z());
+    const bool aslant = along_ray_m <= 4.0F * kOnSurfaceM && plane_m <= kOnSurfaceM;
+    if (along_ray_m > kOnSurfaceM && !aslant) continue;
+    nearest.on_surface = true;
+    const float sight = -normal.dot(camera_.ray(pixel).normalized()) / (depth_m * depth_m);
+    if (sight <= best_sight) continue;
+    best_sight = sight;
+    nearest.error_m = plane_m;
+    nearest.normal = view.world_from_camera.rotation.cast<float>() * normal;
   }
   return nearest;
 }
@@ -135,12 +141,12 @@ DenseScore DenseTruth::score(std::span<const CloudPoint> points, const SE3& trut
     const auto& [x, y, z] = p.position_m;
     in_truth.emplace_back((truth_from_map * Eigen::Vector3d(x, y, z)).cast<float>());
     const Nearest nearest = nearest_surface(in_truth.back());
-    errors_m.push_back(nearest.error_m);
-    if (nearest.error_m > kOnSurfaceM) {
+    if (!nearest.on_surface) {
       ++n_off;
       n_ghosts += is_on_a_path(in_truth.back()) ? 1U : 0U;
       continue;
     }
+    errors_m.push_back(nearest.error_m);
     const Eigen::Vector3f normal =
         truth_from_map.rotation.cast<float>() * Eigen::Vector3f(p.normal[0], p.normal[1], p.normal[2]);
     const float cosine = std::clamp(normal.dot(nearest.normal), -1.0F, 1.0F);

@@ -14,7 +14,7 @@ namespace cpslam::e2e {
 /// What a dense map of a simulated room is worth.
 struct DenseScore {
   std::size_t points = 0;
-  double median_error_m = 0.0;  ///< of a point from the surface
+  double median_error_m = 0.0;  ///< of the points on a surface, from it
   double p95_error_m = 0.0;
   double off_share = 0.0;         ///< of the points: farther than kOnSurfaceM from any surface
   double ghost_share = 0.0;       ///< of the points: that, and where somebody was
@@ -40,7 +40,8 @@ class DenseTruth {
     SE3 world_from_camera;
   };
   struct Nearest {
-    float error_m = 1e9F;
+    bool on_surface = false;  ///< for some view
+    float error_m = 1e9F;  ///< for the view that sees the place best, of those for which it is on a surface
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();
   };
   [[nodiscard]] Nearest nearest_surface(const Eigen::Vector3f& point) const;

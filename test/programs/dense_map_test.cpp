@@ -1,9 +1,10 @@
 // --save-cloud and --save-octomap as users run them.
+#include "cpslam/dense_map.h"
+
 #include <gmock/gmock.h>
 
 #include <filesystem>
 
-#include "cpslam/dense_map.h"
 #include "programs/office_sequence.h"
 
 namespace cpslam {
@@ -53,7 +54,8 @@ TEST(DenseMapOptions, MakeNoDifferenceToTheTrajectory) {
 TEST(DenseMapOptions, LargerVoxelsAndLessDepthGiveFewerPoints) {
   const OfficeSequence office;
   const auto points = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{"--sequential", "--quiet", "--save-cloud", office.folder().file("a.ply")};
+    std::vector<std::string> arguments{"--sequential", "--quiet", "--save-cloud",
+                                       office.folder().file("a.ply")};
     arguments.insert(arguments.end(), more.begin(), more.end());
     EXPECT_EQ(office.track(arguments).exit_code, 0);
     return points_in(TemporaryFolder::content(office.folder().file("a.ply")));
@@ -65,8 +67,10 @@ TEST(DenseMapOptions, LargerVoxelsAndLessDepthGiveFewerPoints) {
 
 TEST(DenseMapOptions, WhatCannotBeWrittenIsSaidBeforeTheRun) {
   const OfficeSequence office;
-  expect_refused(office.track({"--quiet", "--save-cloud", "/no_such_folder/a.ply"}), {"--save-cloud", "/no_such_folder"});
-  expect_refused(office.track({"--quiet", "--save-cloud", office.path()}), {"--save-cloud", office.path(), "folder"});
+  expect_refused(office.track({"--quiet", "--save-cloud", "/no_such_folder/a.ply"}),
+                 {"--save-cloud", "/no_such_folder"});
+  expect_refused(office.track({"--quiet", "--save-cloud", office.path()}),
+                 {"--save-cloud", office.path(), "folder"});
   if (DenseMap::can_save_octomap()) {
     expect_refused(office.track({"--quiet", "--save-octomap", "/no_such_folder/a.bt"}),
                    {"--save-octomap", "/no_such_folder"});

@@ -1,9 +1,9 @@
 // The dense map of simulated rooms against their true surfaces, with people walking and sitting in them.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "cpslam/system.h"
 #include "end_to_end/dense_truth.h"
@@ -33,13 +33,19 @@ sim::SimulationOptions sequence_of(const Room& room) {
   return options;
 }
 
+struct Mapped {
+  DenseMap map;
+  std::vector<int> keyframes;
+};
+
 /// Boxes come with the frames, as from a detector that looks at some of them only.
-DenseMap map_of(const Room& room, sim::Simulation& simulation) {
+Mapped map_of(const Room& room, sim::Simulation& simulation) {
   Settings settings = simulation.settings();
   settings.sequential = true;
   settings.vocabulary = CPSLAM_SOURCE_DIR "/Vocabulary/cpslam.voc";
   settings.dense.enabled = true;
   System system(settings);
+  std::vector<int> keyframes;
   for (int i = 0; i < simulation.size(); ++i) {
     const sim::SimulatedFrame seen = simulation.render(i);
     RgbdFrame frame;
@@ -47,10 +53,12 @@ DenseMap map_of(const Room& room, sim::Simulation& simulation) {
     frame.depth = seen.depth;
     frame.time_s = seen.time_s;
     if (room.boxes_every > 0 && i % room.boxes_every == 0) frame.boxes = seen.boxes();
-    EXPECT_TRUE(is_tracked(system.track(frame).state)) << i;
+    const TrackResult result = system.track(frame);
+    EXPECT_TRUE(is_tracked(result.state)) << i;
+    if (result.keyframe) keyframes.push_back(i);
   }
   system.shutdown();
-  return system.dense_map();
+  return {system.dense_map(), keyframes};
 }
 
 class DenseRoom : public testing::TestWithParam<Room> {};
@@ -58,9 +66,9 @@ class DenseRoom : public testing::TestWithParam<Room> {};
 TEST_P(DenseRoom, IsTheRoomWithoutItsPeople) {
   const sim::SimulationOptions options = sequence_of(GetParam());
   sim::Simulation simulation(options);
-  const DenseMap map = map_of(GetParam(), simulation);
+  const auto [map, keyframes] = map_of(GetParam(), simulation);
+  const DenseTruth truth(options, keyframes, DenseMapOptions().max_depth_m);
   // The map's world begins at the first frame's camera.
-  const DenseTruth truth(options, DenseMapOptions().max_depth_m);
   const DenseScore score = truth.score(map.points(), simulation.world_from_camera(0));
   RecordProperty("views", std::to_string(map.n_views()));
   RecordProperty("points", std::to_string(score.points));
@@ -72,7 +80,8 @@ TEST_P(DenseRoom, IsTheRoomWithoutItsPeople) {
   RecordProperty("ghost_percent", std::to_string(100.0 * score.ghost_share));
   RecordProperty("completeness_percent", std::to_string(100.0 * score.completeness));
   EXPECT_GT(score.points, 10'000U);
-  EXPECT_LT(score.median_error_m, 0.012);
+  EXPECT_LT(score.median_error_m, 0.005);
+  EXPECT_LT(score.off_share, 0.02);
   EXPECT_LT(score.normal_error_deg, 12.0);
   EXPECT_LE(score.ghost_share, kMaxGhostShare);
   EXPECT_GE(score.completeness, GetParam().min_completeness);

@@ -10,7 +10,6 @@
 namespace cpslam::e2e {
 namespace {
 
-constexpr int kFrameStep = 8;
 constexpr int kJointFrameStep = 3;
 // From a joint or a limb's end to the body's surface, clothes and hair, at most.
 constexpr float kBodyM = 0.35F;
@@ -34,7 +33,8 @@ Value percentile(std::vector<Value>& values, double share) {
 
 }  // namespace
 
-DenseTruth::DenseTruth(const sim::SimulationOptions& options, double max_depth_m)
+DenseTruth::DenseTruth(const sim::SimulationOptions& options, const std::vector<int>& frames,
+                       double max_depth_m)
     : camera_(PinholeCamera(options.camera)), max_depth_m_(static_cast<float>(max_depth_m)) {
   const sim::Simulation with_people(options);
   for (int i = 0; i < with_people.size(); i += kJointFrameStep) {
@@ -47,7 +47,7 @@ DenseTruth::DenseTruth(const sim::SimulationOptions& options, double max_depth_m
   empty.n_people = 0;
   empty.sensor_noise = false;
   sim::Simulation room(empty);
-  for (int i = 0; i < room.size(); i += kFrameStep) {
+  for (const int i : frames) {
     const sim::SimulatedFrame frame = room.render(i);
     View view;
     view.world_from_camera = frame.world_from_camera;

@@ -25,8 +25,9 @@ struct DenseScore {
 /// The surfaces of a simulated room without its people, and where these went.
 class DenseTruth {
  public:
-  /// options: of the sequence; max_depth_m: surface farther from every camera is not asked for.
-  DenseTruth(const sim::SimulationOptions& options, double max_depth_m);
+  /// options: of the sequence; frames: those that the map was made of, and any more to look from;
+  /// max_depth_m: surface farther from every camera is not asked for.
+  DenseTruth(const sim::SimulationOptions& options, const std::vector<int>& frames, double max_depth_m);
 
   /// truth_from_map: from the map's world into the simulator's.
   [[nodiscard]] DenseScore score(std::span<const CloudPoint> points, const SE3& truth_from_map) const;

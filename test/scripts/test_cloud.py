@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from cpslam_tools import clouds
-from matplotlib.image import imread
+from matplotlib.image import imread, imsave
 
 FIELDS = [("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("nx", "<f4"), ("ny", "<f4"), ("nz", "<f4"),
           ("red", "u1"), ("green", "u1"), ("blue", "u1")]
@@ -67,6 +67,23 @@ def test_an_empty_cloud_is_a_white_picture(run_script, tmp_path):
     result = run_script("plot_cloud.py", write_ply(tmp_path / "a.ply", room()[:0]), "--width", 20, "-o", tmp_path / "a.png")
     assert result.returncode == 0, result.stderr
     assert (imread(tmp_path / "a.png") == 1).all()
+
+
+def test_a_frame_stands_beside_the_cloud(run_script, tmp_path):
+    ply, frame, png = write_ply(tmp_path / "a.ply", room()), tmp_path / "frame.png", tmp_path / "both.png"
+    imsave(frame, np.full((30, 40, 3), (255, 0, 255), np.uint8))
+    result = run_script("plot_cloud.py", ply, "--azimuth", 0, "--elevation", 90, "--width", 200, "--beside", frame, "-o", png)
+    assert result.returncode == 0, result.stderr
+    picture = (imread(png)[:, :, :3] * 255).round().astype(int)
+    assert picture.shape == (200, 267 + 11 + 200, 3)
+    assert tuple(picture[100, 100]) == (255, 0, 255) and tuple(picture[100, 270]) == (255, 255, 255)
+    assert tuple(picture[100, 378]) == RED
+
+
+def test_a_frame_that_is_no_picture_is_named(run_script, tmp_path):
+    ply = write_ply(tmp_path / "a.ply", room())
+    result = run_script("plot_cloud.py", ply, "--width", 50, "--beside", ply, "-o", tmp_path / "b.png")
+    assert result.returncode == 2 and "a.ply" in result.stderr and len(result.stderr.splitlines()) == 1
 
 
 @pytest.mark.parametrize("content, reason", [

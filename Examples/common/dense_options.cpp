@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/option_checks.h"
 #include "common/output_folder.h"
 #include "cpslam/error.h"
 
@@ -18,18 +19,18 @@ void add_dense_options(CLI::App& app, DenseOptions& options) {
                             ->type_name("FILE.bt")
                             ->group(group);
   app.add_option("--cloud-voxel", options.map.voxel_m, "One point at most in a cube of this side, m")
-      ->check(CLI::Range(0.005, 0.5))
+      ->check(check_range(0.005, 0.5))
       ->type_name("M")
       ->capture_default_str()
       ->group(group);
   app.add_option("--cloud-max-depth", options.map.max_depth_m,
                  "Surfaces farther from the camera are left out, m")
-      ->check(CLI::Range(0.3, 13.0))
+      ->check(check_range(0.3, 13.0))
       ->type_name("M")
       ->capture_default_str()
       ->group(group);
   app.add_option("--octomap-resolution", options.octomap_resolution_m, "Side of the OctoMap's cells, m")
-      ->check(CLI::Range(0.01, 1.0))
+      ->check(check_range(0.01, 1.0))
       ->needs(octomap)
       ->type_name("M")
       ->capture_default_str()

@@ -357,9 +357,9 @@ TEST_F(PeopleTest, WhatMayMoveArePeopleTheirBoxesAndTheCallersMask) {
   run(people, frame);
   const auto expect_covered = [&](const cv::Mat& moving) {
     ASSERT_EQ(moving.type(), CV_8UC1);
-    const cv::Mat1b person = close.owner != 0;
-    cv::Mat1b on_person;
-    cv::bitwise_and(person, moving != 0, on_person);
+    cv::Mat person, on_person;
+    cv::compare(close.owner, 0, person, cv::CMP_NE);
+    moving.copyTo(on_person, person);
     EXPECT_GT(cv::countNonZero(on_person), 0.98 * cv::countNonZero(person));
     EXPECT_LT(cv::countNonZero(moving), 1.1 * box.width * box.height + corner.area());
   };

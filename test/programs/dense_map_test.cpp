@@ -34,9 +34,10 @@ TEST(DenseMapOptions, CloudAndOctomapAreWrittenAndReported) {
   EXPECT_EQ(stats["keyframes"], office.stats()["keyframes_created"]);
   EXPECT_THAT(result.out, HasSubstr("dense map   " + std::to_string(n) + " points"));
   EXPECT_THAT(result.out, HasSubstr("room.ply"));
-  if (DenseMap::can_save_octomap())
+  if (DenseMap::can_save_octomap()) {
     EXPECT_THAT(TemporaryFolder::content(office.folder().file("room.bt")),
                 testing::StartsWith("# Octomap OcTree binary file"));
+  }
 }
 
 TEST(DenseMapOptions, MakeNoDifferenceToTheTrajectory) {
@@ -87,10 +88,19 @@ TEST(DenseMapOptions, BadValuesAreRefused) {
     expect_refused(office.track({"--save-cloud", ply, "--cloud-voxel", value}), {"--cloud-voxel"});
     expect_refused(office.track({"--save-cloud", ply, "--cloud-max-depth", value}), {"--cloud-max-depth"});
   }
+  expect_refused(office.track({"--save-octomap", "a.bt", "--octomap-resolution", "nan"}),
+                 {"--octomap-resolution"});
   expect_refused(office.track({"--octomap-resolution", "0.1"}), {"--octomap-resolution", "--save-octomap"});
   for (const char* const option : {"--cloud-voxel", "--cloud-max-depth", "--cloud-memory"})
     expect_refused(office.track({option, option == std::string("--cloud-memory") ? "100" : "0.4"}),
                    {option, "--save-cloud"});
+}
+
+TEST(DenseMapOptions, WithoutKeyframesThereIsNone) {
+  const OfficeSequence office;
+  expect_refused(
+      office.track({"--load-map", "a.map", "--localization", "--save-cloud", office.folder().file("a.ply")}),
+      {"--save-cloud", "--localization"});
 }
 
 TEST(DenseMapOptions, AFullDiskCostsTheCloudAlone) {

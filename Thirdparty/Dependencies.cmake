@@ -8,6 +8,8 @@ find_package(nlohmann_json 3.10 REQUIRED)
 # Only the live camera needs it: without, everything else is built.
 list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
 find_package(OpenNI2)
+# Only the files of the dense map's free and occupied space need it: without, they are refused.
+find_package(OCTOMAP QUIET)
 if(CPSLAM_BUILD_TESTS)
   find_package(GTest REQUIRED)
   include(GoogleTest)

@@ -11,7 +11,7 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/lib.sh"
 readonly PACKAGES=(
   g++ cmake ninja-build ccache
   libopencv-dev libeigen3-dev libceres-dev libsuitesparse-dev libcli11-dev nlohmann-json3-dev
-  libopenni2-dev libglfw3-dev libimgui-dev libepoxy-dev fonts-inter
+  libopenni2-dev liboctomap-dev libglfw3-dev libimgui-dev libepoxy-dev fonts-inter
   libgtest-dev libgmock-dev libbenchmark-dev xvfb libx11-dev
   python3 python3-numpy python3-matplotlib python3-pil python3-pytest
 )

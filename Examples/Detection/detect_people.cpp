@@ -177,7 +177,7 @@ void check_files(const DetectPeopleOptions& options) {
   for (const auto& [option, file] : {std::pair("--output", options.output),
                                      {"--compare-float", options.compare_float},
                                      {"--report", options.report}}) {
-    if (!file.empty()) check_folder_of(option, file);
+    if (!file.empty()) check_writable(option, file);
   }
 }
 

@@ -35,7 +35,8 @@ RgbdTumOptions parse_command_line(int argc, char** argv, std::optional<int>& exi
       "CameraTrajectory.txt, KeyFrameTrajectory.txt and stats.json.\n\n"
       "Examples:\n"
       "  rgbd_tum - Examples/RGB-D/TUM1.yaml ~/rgbd_dataset_freiburg1_desk --output results\n"
-      "  rgbd_tum - Examples/RGB-D/Bonn.yaml ~/rgbd_bonn_crowd --boxes boxes.txt --draw pictures"};
+      "  rgbd_tum - Examples/RGB-D/Bonn.yaml ~/rgbd_bonn_crowd --boxes boxes.txt --draw pictures\n"
+      "  rgbd_tum - Examples/RGB-D/Bonn.yaml ~/rgbd_bonn_crowd --save-cloud room.ply"};
   add_input_options(app, options);
   add_slam_options(app, options.slam,
                    "Pace by the time stamps and drop frames when late, like a live camera");

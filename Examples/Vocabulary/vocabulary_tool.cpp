@@ -56,7 +56,7 @@ CLI::App* add_train(CLI::App& app, ToolOptions& options) {
 }
 
 int train(ToolOptions& options) {
-  check_folder_of("OUTPUT", options.output);
+  check_writable("OUTPUT", options.output);
   install_stop_signal();
   const std::vector<ImageDescriptors> images = extract_features(options.pictures, options.orb, options.quiet);
   constexpr std::size_t kSteps = 1000;
@@ -78,7 +78,7 @@ int train(ToolOptions& options) {
 }
 
 int convert(const ToolOptions& options) {
-  check_folder_of("OUTPUT", options.output);
+  check_writable("OUTPUT", options.output);
   const Vocabulary vocabulary = load_vocabulary(options.input);
   save_vocabulary(options.output, vocabulary);
   std::cout << to_text(vocabulary);

@@ -1,5 +1,7 @@
 #include "common/output_folder.h"
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 
@@ -18,10 +20,14 @@ void prepare_output_folder(const std::string& option, const std::string& folder)
   if (!writable) throw InputError(option + " " + folder + ": cannot write there");
 }
 
-void check_folder_of(const std::string& option, const std::string& file) {
+void check_writable(const std::string& option, const std::string& file) {
   const fs::path folder = fs::absolute(file).parent_path();
   if (!fs::is_directory(folder)) throw InputError(option + " " + file + ": there is no such folder");
   if (fs::is_directory(file)) throw InputError(option + " " + file + ": is a folder, not a file");
+  // What is no file, such as a pipe, is written to directly; a file is made beside the old one first.
+  const bool in_place = fs::exists(file) && !fs::is_regular_file(file);
+  if (::access(in_place ? file.c_str() : folder.c_str(), W_OK) != 0)
+    throw InputError(option + " " + file + ": cannot write there");
 }
 
 }  // namespace cpslam::program

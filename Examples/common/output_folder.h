@@ -8,7 +8,8 @@ namespace cpslam::program {
 /// written: throws InputError naming the option and the folder.
 void prepare_output_folder(const std::string& option, const std::string& folder);
 
-/// Throws InputError naming the option when a file cannot be made there for want of its folder.
-void check_folder_of(const std::string& option, const std::string& file);
+/// Throws InputError naming the option when a file cannot be written there: its folder is missing or not
+/// writable, or it is a folder itself.
+void check_writable(const std::string& option, const std::string& file);
 
 }  // namespace cpslam::program

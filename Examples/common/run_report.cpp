@@ -104,6 +104,7 @@ std::string to_json(const RunReport& report) {
   if (has_people(report)) json["people"] = people_json(report);
   json["loops"] = nullptr;
   if (has_loops(report)) json["loops"] = loops_json(s);
+  if (report.dense) json["dense_map"] = dense_json(*report.dense);
   if (report.live) json["live"] = live_json(*report.live);
   json["peak_memory_mb"] = report.peak_memory_mb;
   json["wall_s"] = report.wall_s;
@@ -139,6 +140,7 @@ std::string to_text(const RunReport& report) {
   if (report.live) text += live_text(*report.live);
   if (has_people(report)) text += people_text(report);
   if (has_loops(report)) text += loops_text(s);
+  if (report.dense) text += dense_text(*report.dense);
   text += line("total       %.1f s, peak memory %.0f MB", report.wall_s, report.peak_memory_mb);
   if (report.ate) {
     text += line("ATE         %.4f m RMSE, %.4f m median, %.4f m max over %zu poses", report.ate->rmse_m,

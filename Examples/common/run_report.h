@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "common/dense_report.h"
 #include "common/live_report.h"
 #include "cpslam/settings.h"
 #include "cpslam/types.h"
@@ -25,7 +26,8 @@ struct RunReport {
   double wall_s = 0.0;
   double peak_memory_mb = 0.0;
   std::optional<TrajectoryError> ate;
-  std::optional<LiveReport> live;  ///< of a camera's run
+  std::optional<DenseReport> dense;  ///< when one was asked for and could be made
+  std::optional<LiveReport> live;    ///< of a camera's run
 };
 
 /// Resident memory of this process at its highest, MB.

@@ -64,6 +64,7 @@ void add_slam_options(CLI::App& app, SlamOptions& options, const std::string& re
   add_run_options(app, options, realtime_help);
   add_detector_options(app, options.detector);
   add_map_options(app, options.maps);
+  add_dense_options(app, options.dense);
   add_viewer_options(app, options.viewer);
   add_output_options(app, options);
 }
@@ -71,6 +72,7 @@ void add_slam_options(CLI::App& app, SlamOptions& options, const std::string& re
 void check(SlamOptions& options) {
   check(options.detector, options.realtime);
   check(options.maps);
+  check(options.dense, options.maps.localization);
 }
 
 void apply(const SlamOptions& options, Settings& settings) {
@@ -82,6 +84,7 @@ void apply(const SlamOptions& options, Settings& settings) {
   settings.vocabulary = find_vocabulary(options.vocabulary);
   apply(options.detector, settings);
   apply(options.maps, settings);
+  apply(options.dense, settings);
 }
 
 }  // namespace cpslam::program

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "common/dense_options.h"
 #include "common/detector_options.h"
 #include "common/map_options.h"
 #include "cpslam/settings.h"
@@ -31,14 +32,15 @@ struct SlamOptions {
   DetectorOptions detector;
   MapOptions maps;
   ViewerChoice viewer;
+  DenseOptions dense;
 };
 
 /// The argument VOCABULARY.
 void add_vocabulary_argument(CLI::App& app, SlamOptions& options);
 
-/// Adds them to a program's options, in its help's groups "How to run", those of add_detector_options() and
-/// add_map_options(), "Viewer" and "Results and messages". realtime_help: what --realtime does there. The
-/// results are good after check().
+/// Adds them to a program's options, in its help's groups "How to run", those of add_detector_options(),
+/// add_map_options() and add_dense_options(), "Viewer" and "Results and messages". realtime_help: what
+/// --realtime does there. The results are good after check().
 void add_slam_options(CLI::App& app, SlamOptions& options, const std::string& realtime_help);
 
 /// Completes what is only implied. Throws CLI::ValidationError for options that contradict each other.

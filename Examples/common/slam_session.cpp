@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <utility>
 
 #include "common/console_log.h"
@@ -52,9 +53,10 @@ SlamSession::SlamSession(const SlamOptions& options, const Settings& settings, P
     : options_(options), bar_(bar), log_(console_log(bar, options.quiet)) {
   prepare_output_folder("--output", options_.output);
   const std::string& boxes = options_.detector.save_boxes;
-  if (!boxes.empty()) check_folder_of("--save-boxes", boxes);
+  if (!boxes.empty()) check_writable("--save-boxes", boxes);
   const std::string& map = options_.maps.save_map;
-  if (!map.empty()) check_folder_of("--save-map", map);
+  if (!map.empty()) check_writable("--save-map", map);
+  check_files(options_.dense);
   std::unique_ptr<PersonDetector> detector = make_recorded_detector(options_, settings, log_, recorder_);
   pictures_ = make_picture_writer(options_, settings, log_);
   system_ = std::make_unique<System>(settings, std::move(detector), log_);
@@ -111,10 +113,25 @@ bool SlamSession::save(const std::string& ground_truth, RunReport& report) {
     };
     saved = attempt(compare) && saved;
   }
+  if (options_.dense.wanted()) saved = save_dense_map(report) && saved;
   report.statistics = system_->statistics();
   report.peak_memory_mb = peak_memory_mb();
   const std::string stats = (fs::path(options_.output) / "stats.json").string();
   return attempt([&] { write_file_atomically(stats, to_json(report)); }) && saved;
+}
+
+bool SlamSession::save_dense_map(RunReport& report) const {
+  const auto start = std::chrono::steady_clock::now();
+  const DenseOptions& dense = options_.dense;
+  std::optional<DenseMap> map;
+  if (!attempt([&] { map = system_->dense_map(dense.map); })) return false;
+  const bool cloud = dense.save_cloud.empty() || attempt([&] { map->save_cloud(dense.save_cloud); });
+  const bool octomap = dense.save_octomap.empty() ||
+                       attempt([&] { map->save_octomap(dense.save_octomap, dense.octomap_resolution_m); });
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report.dense = {map->points().size(), map->n_views(), map->n_dropped_views(), map->n_carved_voxels(),
+                  seconds};
+  return cloud && octomap;
 }
 
 void SlamSession::print_summary(const RunReport& report) const {
@@ -123,6 +140,9 @@ void SlamSession::print_summary(const RunReport& report) const {
   if (!options_.maps.save_map.empty()) std::cout << "map file    " << options_.maps.save_map << "\n";
   if (!options_.detector.save_boxes.empty())
     std::cout << "boxes       " << options_.detector.save_boxes << "\n";
+  if (!options_.dense.save_cloud.empty()) std::cout << "cloud       " << options_.dense.save_cloud << "\n";
+  if (!options_.dense.save_octomap.empty())
+    std::cout << "octomap     " << options_.dense.save_octomap << "\n";
   if (!pictures_) return;
   std::cout << "pictures    " << (fs::path(options_.detector.draw) / "").string();
   if (pictures_->left_out() > 0) std::cout << ", without " << pictures_->left_out() << " to keep up";

@@ -42,6 +42,7 @@ class SlamSession {
  private:
   bool attempt(const std::function<void()>& step) const;
   bool save(const std::string& ground_truth, RunReport& report);
+  bool save_dense_map(RunReport& report) const;
   void print_summary(const RunReport& report) const;
 
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

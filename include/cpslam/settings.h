@@ -94,6 +94,12 @@ struct LoopSettings {
   int consistent_keyframes = 4;  ///< in a row that must recognise the place
 };
 
+/// What is kept of the keyframes for a dense map (System::dense_map).
+struct DenseSettings {
+  bool enabled = false;
+  int memory_mb = 512;  ///< at most for that, > 0; a keyframe takes 0.4 MB, and when memory is full some go
+};
+
 struct Settings {
   CameraSettings camera;
   OrbSettings orb;
@@ -102,6 +108,7 @@ struct Settings {
   DetectorSettings detector;
   PeopleSettings people;
   LoopSettings loops;
+  DenseSettings dense;
   std::string vocabulary;  ///< file with the words of images (vocabulary_tool); empty: no place is recognised
   /// Map file to begin with (System::save_map); empty: with nothing. Needs a vocabulary.
   std::string load_map;

@@ -4,6 +4,7 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
+#include "cpslam/dense_map.h"
 #include "cpslam/log.h"
 #include "cpslam/person_detector.h"
 #include "cpslam/rgbd_frame.h"
@@ -66,6 +67,11 @@ class System {
   /// Poses of the keyframes alive that were made here, not of those of a loaded map, by time.
   [[nodiscard]] Trajectory keyframe_trajectory() const;
   [[nodiscard]] Statistics statistics() const;
+
+  /// What the keyframes saw of the room, without its people, at the keyframes' present poses: after
+  /// shutdown(), the final ones. Takes seconds. Throws InputError without settings.dense.enabled or for
+  /// options out of range.
+  [[nodiscard]] DenseMap dense_map(const DenseMapOptions& options = {}) const;
 
  private:
   class Impl;

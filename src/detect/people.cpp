@@ -195,6 +195,25 @@ cv::Mat People::excluded() const {
   return mask;
 }
 
+cv::Mat People::moving() const {
+  if (!active_) return {};
+  cv::Mat1b mask(depth_.size(), std::uint8_t{0});
+  const auto add_box = [&mask](const PersonBox& box) {
+    const cv::Rect image({}, mask.size());
+    const cv::Rect2d inside = cv::Rect2d(box.x, box.y, box.width, box.height) & cv::Rect2d(image);
+    if (inside.width > 0.0 && inside.height > 0.0) mask(cv::Rect(inside) & image).setTo(255);
+  };
+  if (uses_tracks()) {
+    mask = person_mask(tracks_.camera(), tracks_.tracks(), depth_, metres_per_unit_);
+    for (const PersonTrack& track : tracks_.tracks()) add_box(track.box);
+  }
+  if (!uses_tracks() || boxes_time_s_ == time_s_) {
+    for (const PersonBox& box : boxes_) add_box(box);
+  }
+  if (!moving_mask_.empty()) mask.setTo(255, moving_mask_);
+  return mask;
+}
+
 void People::end(const SE3& motion, bool pose_known) {
   counts_.keypoints += last_candidates_;
   counts_.removed_keypoints += last_removed_;

@@ -44,6 +44,10 @@ class People {
   [[nodiscard]] int missing_keypoints(const std::vector<std::uint8_t>& keep);
   /// Where the people are now, as a mask for FrameFeaturesBuilder::extend.
   [[nodiscard]] cv::Mat excluded() const;
+  /// All of the depth image that may move by itself, as far as is known after end(): people and whatever else
+  /// is in their boxes, which surface is theirs being uncertain at first, other movers, and the caller's
+  /// mask. CV_8UC1 of the images' size, 0 nothing; empty when nobody is looked for.
+  [[nodiscard]] cv::Mat moving() const;
   /// motion: as it was found in the end; pose_known: or only expected.
   void end(const SE3& motion, bool pose_known);
 

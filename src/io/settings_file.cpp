@@ -145,6 +145,8 @@ void Settings::check() const {
       throw InputError(error);
     }
   }
+  if (dense.memory_mb < 1)
+    throw InputError("dense.memory_mb: must be at least 1, not " + std::to_string(dense.memory_mb));
   if (orb.min_th_fast > orb.ini_th_fast) {
     throw InputError("ORBextractor.minThFAST: " + std::to_string(orb.min_th_fast) +
                      " is above ORBextractor.iniThFAST, " + std::to_string(orb.ini_th_fast));

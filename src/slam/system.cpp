@@ -6,6 +6,7 @@
 #include <shared_mutex>
 
 #include "cpslam/error.h"
+#include "dense/dense_map_impl.h"
 #include "detect/people.h"
 #include "features/image_check.h"
 #include "place/vocabulary_file.h"
@@ -46,7 +47,11 @@ class System::Impl {
         people_(rig_.settings, std::move(detector), timer_, log_),
         tracking_(rig_, map_, places_.get(), timer_, log_,
                   loaded_ ? std::move(loaded_->frames) : std::vector<LoggedFrame>()),
-        back_end_(rig_, map_, places_.get(), timer_, log_) {}
+        back_end_(rig_, map_, places_.get(), timer_, log_) {
+    const DenseSettings& dense = rig_.settings.dense;
+    if (dense.enabled)
+      dense_views_.emplace(rig_.camera, static_cast<std::size_t>(dense.memory_mb) << 20U, log_);
+  }
 
   TrackResult track(const RgbdFrame& frame) {
     const double depth_time_s = frame.depth_time_s.value_or(frame.time_s);
@@ -67,7 +72,10 @@ class System::Impl {
     const std::chrono::duration<double, std::milli> duration = std::chrono::steady_clock::now() - start;
     count(result);
     // After the clock has stopped: mapping in this thread, or waiting for the mapper, is not tracking.
-    if (const KeyFrameId keyframe = tracking_.take_keyframe(); keyframe.valid()) back_end_.add(keyframe);
+    if (const KeyFrameId keyframe = tracking_.take_keyframe(); keyframe.valid()) {
+      if (dense_views_) add_dense_view(keyframe, frame, depth_time_s - frame.time_s);
+      back_end_.add(keyframe);
+    }
     publish(frame.colour, result, duration.count());
     return result;
   }
@@ -92,6 +100,12 @@ class System::Impl {
   [[nodiscard]] Trajectory trajectory() const { return tracking_.trajectory(); }
   [[nodiscard]] Trajectory keyframe_trajectory() const {
     return keyframe_poses(map_, loaded_ ? loaded_->next_sequence : 0);
+  }
+
+  [[nodiscard]] DenseMap dense_map(const DenseMapOptions& options) const {
+    if (!dense_views_) throw InputError("there is no dense map without settings.dense.enabled");
+    return DenseMap(std::make_unique<const DenseMap::Impl>(
+        options, dense_views_->camera(), dense_views_->place(map_), dense_views_->n_dropped()));
   }
 
   [[nodiscard]] FrameView frame_view() const {
@@ -144,6 +158,19 @@ class System::Impl {
       kept_ = people_.filter(*candidates_);
     }
     return features_.finish(*candidates_, kept_);
+  }
+
+  void add_dense_view(KeyFrameId keyframe, const RgbdFrame& frame, double depth_delay_s) {
+    const auto scope = timer_.time("dense map: view");
+    DenseFrame seen;
+    seen.colour = frame.colour;
+    seen.depth = frame.depth;
+    seen.metres_per_unit = 1.0 / rig_.settings.camera.depth_map_factor;
+    seen.moving = people_.moving();
+    SE3 depth_cam_from_colour_cam;
+    if (depth_delay_s != 0.0) depth_cam_from_colour_cam = tracking_.expected_motion(depth_delay_s);
+    seen.colour_cam_from_depth_cam = depth_cam_from_colour_cam.inverse();
+    dense_views_->add(keyframe, seen, depth_cam_from_colour_cam, map_);
   }
 
   void show_keypoints(FrameView& view) const {
@@ -227,6 +254,7 @@ class System::Impl {
   People people_;
   Tracking tracking_;
   BackEnd back_end_;
+  std::optional<DenseViews> dense_views_;  // empty unless a dense map is wanted
   Statistics counts_;
   std::optional<double> last_time_s_;
   KeypointCandidates* candidates_ = nullptr;  // of the last frame; features_ owns them
@@ -269,6 +297,9 @@ Trajectory System::keyframe_trajectory() const {
 }
 Statistics System::statistics() const {
   return impl_->statistics();
+}
+DenseMap System::dense_map(const DenseMapOptions& options) const {
+  return impl_->dense_map(options);
 }
 
 }  // namespace cpslam

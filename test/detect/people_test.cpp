@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -339,6 +340,45 @@ TEST_F(PeopleTest, CanDeleteWholeBoxes) {
   people.show(view);
   EXPECT_EQ(view.person_mask.size(), cv::Size(640, 480));
   EXPECT_EQ(cv::countNonZero(view.person_mask), 0);
+}
+
+TEST_F(PeopleTest, WhatMovesIsUnknownWhileNobodyIsLookedFor) {
+  People people = make();
+  run(people, next_frame());
+  EXPECT_TRUE(people.moving().empty());
+}
+
+TEST_F(PeopleTest, WhatMayMoveArePeopleTheirBoxesAndTheCallersMask) {
+  People people = make();
+  RgbdFrame frame = next_frame({box});
+  frame.moving_mask = cv::Mat(480, 640, CV_8UC1, cv::Scalar(0));
+  const cv::Rect corner(600, 10, 30, 20);
+  frame.moving_mask(corner).setTo(1);
+  run(people, frame);
+  const auto expect_covered = [&](const cv::Mat& moving) {
+    ASSERT_EQ(moving.type(), CV_8UC1);
+    cv::Mat person, on_person;
+    cv::compare(close.owner, 0, person, cv::CMP_NE);
+    moving.copyTo(on_person, person);
+    EXPECT_GT(cv::countNonZero(on_person), 0.98 * cv::countNonZero(person));
+    EXPECT_LT(cv::countNonZero(moving), 1.1 * box.width * box.height + corner.area());
+  };
+  expect_covered(people.moving());
+  EXPECT_EQ(cv::countNonZero(people.moving()(corner)), corner.area());
+  // In a frame without boxes he and his box are carried along, the caller's mask is not.
+  run(people, next_frame());
+  expect_covered(people.moving());
+  EXPECT_EQ(cv::countNonZero(people.moving()(corner)), 0);
+}
+
+TEST_F(PeopleTest, WhereOnlyBoxesAreKnownAllInThemMoves) {
+  settings.people.filter = PeopleFilter::kBoxes;
+  People people = make();
+  run(people, next_frame({{600.5, 470.5, 1e300, 1e300}, {-50.0, 10.0, 60.0, 20.0}, {0.0, 0.0, -3.0, NAN}}));
+  const cv::Mat moving = people.moving();
+  EXPECT_EQ(cv::countNonZero(moving), 40 * 10 + 10 * 20);
+  EXPECT_EQ(moving.at<std::uint8_t>(479, 639), 255);
+  EXPECT_EQ(moving.at<std::uint8_t>(29, 9), 255);
 }
 
 TEST_F(PeopleTest, CanFilterAsPublished) {

@@ -5,8 +5,8 @@
 #include <shared_mutex>
 #include <utility>
 
-#include "slam/found_share.h"
 #include "slam/motion_tracker.h"
+#include "slam/place_evidence.h"
 #include "slam/recovery.h"
 
 namespace cpslam {
@@ -18,11 +18,8 @@ constexpr float kMotionWindowsPx[] = {15.0F, 30.0F, 60.0F};
 // repetitive furniture gives some dozen consistent matches almost anywhere.
 constexpr double kSuspiciousShare = 0.3;
 // A place that is recognised without knowing where the camera was needs more than one that follows from the
-// frame before: so many times Tracking.minInliers points, and this share of those that should be visible.
-// Another desk of the same kind has reached 135 points with a share of 0.13, a corner of the map 56 with 0.34
-// (docs/benchmarks.md).
+// frame before: so many times Tracking.minInliers points, and PlaceEvidence.
 constexpr int kRecognisedInliers = 2;
-constexpr double kMinFoundShare = 0.15;
 // At the map's rim its points are few and far: so many times as many of the last frame's tell more.
 constexpr int kMoreByLastFrame = 2;
 
@@ -119,7 +116,7 @@ std::optional<FramePlacer::Recognised> FramePlacer::by_keyframe(KeyFrameId keyfr
   std::optional<Placement> placement = in_local_map(1.0F, recognised.local_map, recognised.frame);
   if (!placement || placement->inliers < kRecognisedInliers * rig_.settings.tracking.min_inliers)
     return std::nullopt;
-  if (found_share(rig_, recognised.local_map, recognised.frame) < kMinFoundShare) return std::nullopt;
+  if (!place_evidence(rig_, recognised.local_map, recognised.frame).is_convincing()) return std::nullopt;
   recognised.placement = *std::move(placement);
   return recognised;
 }

@@ -6,7 +6,8 @@ import os
 
 import numpy as np
 import pytest
-from cpslam_tools.benchmark import kidnapping, relocalisation
+from cpslam_tools.benchmark import box_files, covers, kidnapping, relocalisation
+from cpslam_tools.benchmark.covers import LensCap, SomebodyInFront
 from cpslam_tools.benchmark.kidnapping import INTERVAL_S, KidnappedSequence
 from cpslam_tools.benchmark.sequences import Sequence, rows_of
 
@@ -28,10 +29,13 @@ def source(tmp_path):
     return Sequence("room", str(folder), str(folder / "settings.yaml"))
 
 
+def sequence_of(source, tmp_path, cover):
+    return KidnappedSequence(source, str(tmp_path / "work"), N_MAP, SECOND_PASS, KIDNAPS, N_COVERED, N_BACK, 1, cover)
+
+
 @pytest.fixture
 def kidnapped(source, tmp_path):
-    sequence = KidnappedSequence(source, str(tmp_path / "work"), N_MAP, SECOND_PASS, KIDNAPS, N_COVERED, N_BACK, seed=1)
-    with sequence.ready() as ready:
+    with sequence_of(source, tmp_path, LensCap()).ready() as ready:
         yield ready
 
 
@@ -42,8 +46,8 @@ def test_the_sequence_is_mapped_then_covered_and_uncovered_elsewhere(kidnapped):
     assert [fields[0] for _, fields in colour[:N_MAP]] == [f"rgb/{i}.png" for i in range(N_MAP)]
     for k, (begin, end) in enumerate(kidnapped.visits):
         first = N_MAP + k * (N_COVERED + N_BACK) + N_COVERED
-        assert {fields[0] for _, fields in colour[first - N_COVERED:first]} == {kidnapping.COVERED_COLOUR}
-        assert {fields[0] for _, fields in depth[first - N_COVERED:first]} == {kidnapping.COVERED_DEPTH}
+        assert {fields[0] for _, fields in colour[first - N_COVERED:first]} == {"covered_colour.png"}
+        assert {fields[0] for _, fields in depth[first - N_COVERED:first]} == {"covered_depth.png"}
         assert abs(colour[first][0] - begin) < 1e-5 and abs(colour[first + N_BACK - 1][0] - end) < 1e-5
         start = int(colour[first][1][0].split("/")[1].split(".")[0])
         assert SECOND_PASS <= start <= N_FRAMES - N_BACK
@@ -52,7 +56,7 @@ def test_the_sequence_is_mapped_then_covered_and_uncovered_elsewhere(kidnapped):
 
 
 def test_the_source_comes_back_to_what_it_was(source, tmp_path):
-    with KidnappedSequence(source, str(tmp_path / "work"), N_MAP, SECOND_PASS, 2, 1, 1, seed=1).ready() as ready:
+    with sequence_of(source, tmp_path, LensCap()).ready() as ready:
         directory = ready.directory
     assert not os.path.exists(directory)
     assert os.path.exists(source.directory)
@@ -66,13 +70,40 @@ def test_no_visit_is_near_the_one_before(count):
     assert all((b - a) % count not in (1, count - 1) for a, b in itertools.pairwise(parts))
 
 
-def test_covered_pictures_are_black(tmp_path):
+def test_a_covered_lens_sees_nothing(tmp_path):
     image = pytest.importorskip("matplotlib.image")
-    for bits in (8, 16):
-        path = tmp_path / f"{bits}.png"
-        kidnapping.write_black_png(path, (64, 48), bits)
-        pixels = image.imread(path)
-        assert pixels.shape == (48, 64) and not pixels.any()
+    LensCap().write(tmp_path)
+    for name in LensCap().files(0):
+        pixels = image.imread(tmp_path / name)
+        assert pixels.shape == (480, 640) and not pixels.any()
+    assert LensCap().box() is None
+
+
+def test_who_stands_in_front_fills_the_picture_and_has_a_box(source, tmp_path):
+    image = pytest.importorskip("matplotlib.image")
+    cover = SomebodyInFront(seed=3)
+    with sequence_of(source, tmp_path, cover).ready() as ready:
+        boxes = box_files.read_boxes(ready.boxes)
+        colour = rows_of(os.path.join(ready.directory, "rgb.txt"))
+        shown = [(stamp, fields[0]) for stamp, fields in colour if fields[0].startswith("person")]
+        assert [float(box[0]) for box in boxes] == [stamp for stamp, _ in shown]
+        assert len(boxes) == KIDNAPS * N_COVERED
+        assert boxes[0][1:5] == (0.0, 0.0, 640.0, 480.0)
+        assert len({name for _, name in shown}) == covers.PHASES  # sways
+        for name in cover.files(7):
+            assert os.path.exists(os.path.join(ready.directory, name))
+        pixels = image.imread(os.path.join(ready.directory, shown[0][1]))
+        assert pixels.shape == (480, 640, 3) and pixels.std() > 0.05
+        depth = image.imread(os.path.join(ready.directory, cover.files(0)[1])) * 65535 / covers.DEPTH_UNITS
+        assert 0.6 < depth.min() and depth.max() < 0.75
+
+
+def test_pixels_survive_being_written(tmp_path):
+    image = pytest.importorskip("matplotlib.image")
+    random = np.random.default_rng(1)
+    for pixels in (random.integers(0, 65536, (5, 7)).astype(np.uint16), random.integers(0, 256, (5, 7, 3)).astype(np.uint8)):
+        covers.write_png(tmp_path / "x.png", pixels)
+        assert np.allclose(image.imread(tmp_path / "x.png") * np.iinfo(pixels.dtype).max, pixels, atol=0.01)
 
 
 def written(path, rows):
@@ -121,7 +152,7 @@ def test_visits_are_judged_against_what_was_mapped_before(kidnapped, tmp_path):
 
 
 def run(variant, visits, error=None):
-    return {"variant": variant, "room": 1, "visits": visits, "error": error}
+    return {"variant": variant, "cover": "covered lens", "room": 1, "visits": visits, "error": error}
 
 
 GOOD = {"after": 3, "error_m": 0.01, "error_deg": 0.2, "worst_m": 0.02, "worst_deg": 0.3}
@@ -143,6 +174,6 @@ def test_the_verdict(known, others, text):
 
 
 def test_a_failed_run_does_not_reach_the_aim():
-    runs = [run(relocalisation.ROUND, [GOOD] * 20), {"variant": relocalisation.PART, "room": 2, "error": "it broke"}]
+    runs = [run(relocalisation.ROUND, [GOOD] * 20), {"variant": relocalisation.PART, "cover": "covered lens", "room": 2, "error": "it broke"}]
     assert relocalisation.verdict(runs).startswith("NOT reached")
     assert "it broke" in relocalisation.table(runs)

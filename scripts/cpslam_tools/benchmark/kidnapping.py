@@ -2,30 +2,28 @@
 
 import math
 import os
-import struct
-import zlib
 
 import numpy as np
 
 from ..alignment import align_rigidly
 from ..errors import InputError
 from ..trajectory import read_trajectory, rotation_angles, rotation_matrices
+from . import box_files
 from .sequences import RearrangedSequence
 
 INTERVAL_S = 1.0 / 30.0
-SIZE = (640, 480)
-COVERED_COLOUR, COVERED_DEPTH = "covered_colour.png", "covered_depth.png"
 
 
 class KidnappedSequence(RearrangedSequence):
-    """Frames 0 to n_map - 1 of a source that passes everywhere twice, then `kidnaps` times: n_covered black frames and
-    n_back frames from a random place of the second pass, which begins at second_pass, never near the one before. With
-    n_map below second_pass the rest is not mapped. Stamps go on as if nothing were.
+    """Frames 0 to n_map - 1 of a source that passes everywhere twice, then `kidnaps` times: n_covered frames of the cover
+    and n_back frames from a random place of the second pass, which begins at second_pass, never near the one before. With
+    n_map below second_pass the rest is not mapped. Stamps go on as if nothing were. Who covers the camera has a box.
 
     visits: [(stamp of the first frame, stamp of the last)] of each coming back, once the sequence is ready."""
 
-    def __init__(self, source, work_dir, n_map, second_pass, kidnaps, n_covered, n_back, seed):
-        super().__init__(source, work_dir, f"{kidnaps} kidnaps", "kidnapped")
+    def __init__(self, source, work_dir, n_map, second_pass, kidnaps, n_covered, n_back, seed, cover):
+        super().__init__(source, work_dir, f"{kidnaps} kidnaps, {cover.name}", "kidnapped")
+        self.cover = cover
         self.n_map = n_map
         self.second_pass = second_pass
         self.kidnaps = kidnaps
@@ -46,19 +44,23 @@ class KidnappedSequence(RearrangedSequence):
             raise InputError(f"{self.source.directory}: colour, depth and ground truth are not of the same frames")
         order = self._order(len(colour))
         lists = {"rgb.txt": [], "depth.txt": [], "groundtruth.txt": []}
+        covered = []
         for position, frame in enumerate(order):
             stamp = f"{colour[0][0] + position * INTERVAL_S:.6f} "
             if frame is None:
-                lists["rgb.txt"].append(stamp + COVERED_COLOUR)
-                lists["depth.txt"].append(stamp + COVERED_DEPTH)
+                its_colour, its_depth = self.cover.files(len(covered))
+                lists["rgb.txt"].append(stamp + its_colour)
+                lists["depth.txt"].append(stamp + its_depth)
+                covered.append(stamp.strip())
                 continue
             for name, rows in (("rgb.txt", colour), ("depth.txt", depth), ("groundtruth.txt", truth)):
                 lists[name].append(stamp + " ".join(rows[frame][1]))
         for name, lines in lists.items():
             with open(os.path.join(self.directory, name), "w", encoding="utf-8") as file:
                 file.write("".join(line + "\n" for line in lines))
-        write_black_png(os.path.join(self.directory, COVERED_COLOUR), SIZE, bits=8)
-        write_black_png(os.path.join(self.directory, COVERED_DEPTH), SIZE, bits=16)
+        self.cover.write(self.directory)
+        if self.cover.box():
+            box_files.write_boxes(self.boxes, [(stamp, *self.cover.box()) for stamp in covered])
         for folder in ("rgb", "depth"):
             self._link(folder)
 
@@ -84,19 +86,6 @@ def visit_starts(begin, end, count, random):
     offset = int(random.integers(count))
     order = [(offset + stride * k) % count for k in range(count)]
     return [int(random.uniform(parts[k], parts[k + 1])) for k in order]
-
-
-def write_black_png(path, size, bits):
-    """A black grey picture of 8 or 16 bits."""
-    width, height = size
-
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    row = bytes(1 + width * bits // 8)
-    with open(path, "wb") as file:
-        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, bits, 0, 0, 0, 0))
-                   + chunk(b"IDAT", zlib.compress(row * height)) + chunk(b"IEND", b""))
 
 
 def judge_visits(truth_path, trajectory_path, end_of_mapping, visits):

@@ -4,7 +4,8 @@ import os
 
 from ..errors import InputError
 from ..output import markdown_table
-from . import kidnapping, tables
+from . import detectors, kidnapping, tables
+from .covers import LensCap, SomebodyInFront
 from .execution import on_sequence, run_on
 from .kidnapping import KidnappedSequence
 from .sequences import SimulatedSequence
@@ -24,21 +25,22 @@ AIM_SHARE = 0.95
 
 
 def relocalisation(plan):
-    """Per room: one round is mapped, or a part of it; then the camera is covered, carried, and uncovered in the second
-    round, again and again. Sequential."""
+    """Per room: one round is mapped, or a part of it; then the camera is covered, by a cap or by somebody who steps in front
+    of it, carried, and uncovered in the second round, again and again. Sequential."""
     for seed in range(1, ROOMS + 1):
         source = SimulatedSequence(plan.programs, PRESET, plan.work_dir, N_FRAMES, seed, keep=plan.keep)
-        for mapped in (ROUND, PART):
-            sequence = KidnappedSequence(source, plan.work_dir, mapped, ROUND, KIDNAPS, N_COVERED, N_BACK, seed)
-            yield from on_sequence(sequence, lambda ready: [_run(plan, ready)], room=seed, variant=mapped)
+        for mapped, cover in ((ROUND, LensCap()), (ROUND, SomebodyInFront(seed)), (PART, LensCap())):
+            sequence = KidnappedSequence(source, plan.work_dir, mapped, ROUND, KIDNAPS, N_COVERED, N_BACK, seed, cover)
+            yield from on_sequence(sequence, lambda ready: [_run(plan, ready)], room=seed, variant=mapped, cover=cover.name)
 
 
 def count(_plan):
-    return 2 * ROOMS
+    return 3 * ROOMS
 
 
 def _run(plan, sequence):
-    result = run_on(plan, sequence, "sequential", max_frames=None)
+    people = detectors.choose(sequence.directory, detectors.NONE)
+    result = run_on(plan, sequence, "sequential", max_frames=None, arguments=people.arguments)
     if result["error"]:
         return result
     try:
@@ -62,13 +64,13 @@ def is_wrong(visit):
 
 
 def table(runs):
-    header = ["mapped frames", "room", "kidnaps", f"back within {SOON} frames", "of these within 0.03 m, 1 deg", "wrong",
+    header = ["mapped frames", "cover", "room", "kidnaps", f"back within {SOON} frames", "of these within 0.03 m, 1 deg", "wrong",
               "frames until back, median (worst)", "error m", "worst m", "error deg", "notes"]
     rows = []
-    for (mapped,), group in tables.grouped(runs, "variant").items():
-        rows += [_row(mapped, run.get("room", "-"), run.get("visits", []), run["error"] or "") for run in group]
-        rows.append(_row(mapped, "all", _visits(group), ""))
-    return (f"### Relocalisation: carried with a covered lens, {N_COVERED} frames ({PRESET}, sensor noise, sequential)\n\n"
+    for labels, group in tables.grouped(runs, "variant", "cover").items():
+        rows += [_row(labels, run.get("room", "-"), run.get("visits", []), run["error"] or "") for run in group]
+        rows.append(_row(labels, "all", _visits(group), ""))
+    return (f"### Relocalisation: carried while it sees nothing, {N_COVERED} frames ({PRESET}, sensor noise, sequential)\n\n"
             + markdown_table(header, rows) + "\n\n" + verdict(runs))
 
 
@@ -76,11 +78,11 @@ def _visits(runs):
     return [visit for run in runs for visit in run.get("visits", [])]
 
 
-def _row(mapped, room, visits, notes):
+def _row(labels, room, visits, notes):
     known = [visit for visit in visits if visit["after"] is not None]
     soon = [visit for visit in visits if is_soon(visit)]
     frames = tables.spread(known, "after", digits=0)
-    return [mapped, room, len(visits), len(soon), sum(map(is_exact, soon)), sum(map(is_wrong, visits)), frames,
+    return [*labels, room, len(visits), len(soon), sum(map(is_exact, soon)), sum(map(is_wrong, visits)), frames,
             tables.spread(known, "error_m"), tables.spread(known, "worst_m"), tables.spread(known, "error_deg", digits=2),
             notes]
 

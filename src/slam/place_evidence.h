@@ -1,0 +1,25 @@
+#pragma once
+
+#include "slam/frame.h"
+#include "slam/local_map.h"
+#include "slam/rig.h"
+
+namespace cpslam {
+
+/// What speaks for and against a frame being where a few dozen matches put it. Another desk of the same kind
+/// agrees with many points of this one; but then the frame's other keypoints find no partner, and it looks
+/// through where the map says that something is.
+struct PlaceEvidence {
+  double matched_share = 0.0;  ///< of the keypoints where the map lets expect a point: matched to one
+  /// Of the points that are expected and beside which a depth was read: nothing there, only what is farther.
+  /// A nearer depth says nothing: somebody may stand there.
+  double seen_through_share = 0.0;
+
+  /// Whether the pose may be believed without knowing where the camera was before.
+  [[nodiscard]] bool is_convincing() const;
+};
+
+/// Compares the frame, placed and matched, with the local map. No matches and no map give zeros.
+[[nodiscard]] PlaceEvidence place_evidence(const Rig& rig, const LocalMap& local_map, const Frame& frame);
+
+}  // namespace cpslam

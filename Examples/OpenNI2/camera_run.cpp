@@ -31,10 +31,11 @@ bool same_camera(const CameraSettings& a, const CameraSettings& b) {
 }  // namespace
 
 CameraRun::CameraRun(const RgbdOpenni2Options& options, SlamSession& session, SequenceRecorder* recorder,
-                     ProgressBar& bar, RunReport& report)
+                     RunControl& control, ProgressBar& bar, RunReport& report)
     : options_(options),
       session_(session),
       recorder_(recorder),
+      control_(control),
       bar_(bar),
       report_(report),
       live_(report.live.value()),
@@ -42,7 +43,8 @@ CameraRun::CameraRun(const RgbdOpenni2Options& options, SlamSession& session, Se
       clock_(options.slam.realtime, 1.0 / report.settings.camera.fps),
       unusable_("frame", bar) {}
 
-int CameraRun::run(std::unique_ptr<RgbdCamera> camera, const std::stop_token& stop) {
+int CameraRun::run(std::unique_ptr<RgbdCamera> camera) {
+  const std::stop_token stop = control_.token();
   camera_ = std::move(camera);
   device_settings_ = camera_->settings();
   int exit_code = kExitOk;
@@ -90,6 +92,7 @@ void CameraRun::take(const CameraFrame& frame) {
   rgbd.depth_time_s = times.depth_time_s;
   if (recorder_ != nullptr) recorder_->add(rgbd);
   ++n_frames_;
+  session_.fulfil(control_.take_wishes());
   try {
     track(rgbd, frame);
   } catch (const InputError& error) {

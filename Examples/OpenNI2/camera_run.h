@@ -15,6 +15,7 @@
 #include "openni/library.h"
 #include "openni/rgbd_camera.h"
 #include "rgbd_openni2_options.h"
+#include "util/run_control.h"
 
 namespace cpslam::program {
 
@@ -23,11 +24,11 @@ class CameraRun {
  public:
   /// recorder: null when nothing is recorded. All must outlive this; the report has its camera.
   CameraRun(const RgbdOpenni2Options& options, SlamSession& session, SequenceRecorder* recorder,
-            ProgressBar& bar, RunReport& report);
+            RunControl& control, ProgressBar& bar, RunReport& report);
 
-  /// Starts the camera. Returns an exit code and fills the report's counts. Whatever fails, the session keeps
+  /// Starts the camera; ends when the control quits. Returns an exit code and fills the report's counts. Whatever fails, the session keeps
   /// what it has.
-  [[nodiscard]] int run(std::unique_ptr<RgbdCamera> camera, const std::stop_token& stop);
+  [[nodiscard]] int run(std::unique_ptr<RgbdCamera> camera);
 
  private:
   [[nodiscard]] bool at_end() const;
@@ -46,6 +47,7 @@ class CameraRun {
   const RgbdOpenni2Options& options_;
   SlamSession& session_;
   SequenceRecorder* const recorder_;
+  RunControl& control_;
   ProgressBar& bar_;
   RunReport& report_;
   LiveReport& live_;

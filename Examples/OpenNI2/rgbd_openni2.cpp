@@ -73,9 +73,9 @@ int main_program(const RgbdOpenni2Options& options) {
   const StopSignal stop;
   RunControl control;
   const std::stop_callback on_signal(stop.token(), [&control] { control.quit(); });
-  CameraRun run(options, session, recorder.get(), bar, report);
+  CameraRun run(options, session, recorder.get(), control, bar, report);
   const auto work = [&] {
-    const int run_code = run.run(std::move(camera), control.token());
+    const int run_code = run.run(std::move(camera));
     if (recorder) {
       recorder->finish();
       report.live->recording = {recorder->folder(), recorder->recorded(), recorder->dropped(),

@@ -42,6 +42,7 @@ int run_sequence(SlamSession& session, const std::vector<RgbdEntry>& entries, Ru
     const auto paused = control.wait_for_turn();
     if (!paused) break;
     pacer.delay(*paused);
+    session.fulfil(control.take_wishes());
     if (report.settings.realtime && !pacer.wait_for(images.time_s, 1.0 / report.settings.camera.fps)) {
       ++report.dropped;
       continue;

@@ -34,8 +34,6 @@ void check(const MapOptions& options) {
 void apply(const MapOptions& options, Settings& settings) {
   settings.load_map = options.load_map;
   settings.localization = options.localization;
-  // Nobody adds keyframes, so nobody comes back with one.
-  if (options.localization) settings.loops.enabled = false;
 }
 
 }  // namespace cpslam::program

@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <regex>
+#include <vector>
 
 #include "cpslam/error.h"
 
@@ -18,6 +20,16 @@ void prepare_output_folder(const std::string& option, const std::string& folder)
   const bool writable = !error && fs::is_directory(folder) && std::ofstream(probe).put('\n').good();
   fs::remove(probe, error);
   if (!writable) throw InputError(option + " " + folder + ": cannot write there");
+}
+
+void remove_numbered(const std::string& folder, const std::string& stem) {
+  const std::regex name(stem + "[0-9]+\\.txt");
+  std::vector<fs::path> found;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    if (std::regex_match(entry.path().filename().string(), name)) found.push_back(entry.path());
+  }
+  for (const fs::path& path : found) fs::remove(path, ignored);
 }
 
 void check_writable(const std::string& option, const std::string& file) {

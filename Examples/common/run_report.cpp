@@ -73,6 +73,7 @@ std::string to_json(const RunReport& report) {
                                  {"frames", report.frames_in_sequence},
                                  {"tracked", s.tracked},
                                  {"weak", s.weak},
+                                 {"bridged", s.bridged},
                                  {"predicted", s.predicted},
                                  {"lost", s.lost},
                                  {"not_initialized", s.not_initialized},
@@ -84,6 +85,7 @@ std::string to_json(const RunReport& report) {
                                  {"keyframes_created", s.keyframes_created},
                                  {"map_points", s.map_points},
                                  {"map_points_created", s.map_points_created},
+                                 {"dropped_maps", s.dropped_maps},
                                  {"local_bundle_adjustments", s.local_bundle_adjustments}};
   json["stages"] = nlohmann::ordered_json::array();
   for (const StageTimes& stage : s.stages) {
@@ -126,6 +128,8 @@ std::string to_text(const RunReport& report) {
                report.frames_in_sequence, s.tracked, 100.0 * tracked_ratio(report), s.predicted, s.lost,
                s.not_initialized);
   if (s.weak > 0) text += line("            %zu of the tracked ones weakly: on few points", s.weak);
+  if (s.bridged > 0)
+    text += line("            %zu where the map shows nothing, carried on from frame to frame", s.bridged);
   if (report.unreadable > 0)
     text += line("            %zu could not be used (see the warnings)", report.unreadable);
   if (report.dropped > 0) text += line("            %zu dropped to keep up with real time", report.dropped);

@@ -10,15 +10,21 @@
 #include "common/console_log.h"
 #include "common/output_folder.h"
 #include "common/run_program.h"
+#include "cpslam/error.h"
 #include "io/atomic_file.h"
 #include "io/person_boxes.h"
 #include "io/trajectory_error.h"
 #include "io/trajectory_io.h"
+#include "util/log.h"
 
 namespace cpslam::program {
 namespace {
 
 namespace fs = std::filesystem;
+
+// With the number of a map that was dropped, the oldest 1.
+constexpr const char* kDroppedFrames = "CameraTrajectory_dropped";
+constexpr const char* kDroppedKeyFrames = "KeyFrameTrajectory_dropped";
 
 /// The settings' detector, wrapped to keep what it finds when that is to be saved.
 std::unique_ptr<PersonDetector> make_recorded_detector(const SlamOptions& options, const Settings& settings,
@@ -52,6 +58,7 @@ std::unique_ptr<PictureWriter> make_picture_writer(const SlamOptions& options, c
 SlamSession::SlamSession(const SlamOptions& options, const Settings& settings, ProgressBar& bar)
     : options_(options), bar_(bar), log_(console_log(bar, options.quiet)) {
   prepare_output_folder("--output", options_.output);
+  for (const char* const name : {kDroppedFrames, kDroppedKeyFrames}) remove_numbered(options_.output, name);
   const std::string& boxes = options_.detector.save_boxes;
   if (!boxes.empty()) check_writable("--save-boxes", boxes);
   const std::string& map = options_.maps.save_map;
@@ -68,15 +75,41 @@ TrackResult SlamSession::track(const RgbdFrame& frame) {
   return result;
 }
 
+void SlamSession::fulfil(const MapWishes& wishes) {
+  const Log log(log_);
+  try {
+    if (wishes.reset) system_->reset();
+    if (wishes.localization) system_->set_localization(*wishes.localization);
+  } catch (const InputError& refusal) {
+    log.warning(refusal.what());
+  }
+}
+
+bool SlamSession::save_dropped_maps() const {
+  const fs::path dir = options_.output;
+  bool saved = true;
+  std::size_t number = 0;
+  for (const DroppedMap& map : system_->dropped_maps()) {
+    const std::string name = std::to_string(++number) + ".txt";
+    const auto write = [&] {
+      write_trajectory((dir / (kDroppedFrames + name)).string(), map.trajectory);
+      write_trajectory((dir / (kDroppedKeyFrames + name)).string(), map.keyframe_trajectory);
+    };
+    saved = attempt(write) && saved;
+  }
+  return saved;
+}
+
 bool SlamSession::save_so_far() {
   const fs::path dir = options_.output;
   const bool frames =
       attempt([&] { write_trajectory((dir / "CameraTrajectory.txt").string(), system_->trajectory()); });
   const bool keyframes = attempt(
       [&] { write_trajectory((dir / "KeyFrameTrajectory.txt").string(), system_->keyframe_trajectory()); });
+  const bool dropped = save_dropped_maps();
   const std::string& map = options_.maps.save_map;
   const bool mapped = map.empty() || attempt([&] { system_->save_map(map); });
-  return frames && keyframes && mapped;
+  return frames && keyframes && dropped && mapped;
 }
 
 int SlamSession::finish(const std::string& ground_truth, RunReport& report) {
@@ -137,6 +170,10 @@ bool SlamSession::save_dense_map(RunReport& report) const {
 void SlamSession::print_summary(const RunReport& report) const {
   std::cout << to_text(report) << "results     " << (fs::path(options_.output) / "").string()
             << "{CameraTrajectory.txt, KeyFrameTrajectory.txt, stats.json}\n";
+  for (std::size_t i = 1; i <= report.statistics.dropped_maps; ++i) {
+    std::cout << "            and, of a map that was dropped, {" << kDroppedFrames << i << ".txt, "
+              << kDroppedKeyFrames << i << ".txt}\n";
+  }
   if (!options_.maps.save_map.empty()) std::cout << "map file    " << options_.maps.save_map << "\n";
   if (!options_.detector.save_boxes.empty())
     std::cout << "boxes       " << options_.detector.save_boxes << "\n";

@@ -13,6 +13,7 @@
 #include "cpslam/snapshot.h"
 #include "cpslam/system.h"
 #include "detect/recording_detector.h"
+#include "util/run_control.h"
 
 namespace cpslam::program {
 
@@ -27,11 +28,14 @@ class SlamSession {
   /// are not to be written to any more.
   TrackResult track(const RgbdFrame& frame);
 
+  /// Does to the map what somebody at the screen wants; says so when it cannot be.
+  void fulfil(const MapWishes& wishes);
+
   /// System::publish_to().
   void publish_to(std::shared_ptr<SnapshotBoard> board) { system_->publish_to(std::move(board)); }
 
-  /// Writes the trajectories, and the map where it is wanted, as they are now. False, with a message, when
-  /// that fails.
+  /// Writes the trajectories, those of dropped maps too, and the map where it is wanted, as they are now.
+  /// False, with a message, when that fails.
   bool save_so_far();
 
   /// Ends the run and writes every result that can be written, one failure not costing the others. Fills what
@@ -41,6 +45,7 @@ class SlamSession {
 
  private:
   bool attempt(const std::function<void()>& step) const;
+  bool save_dropped_maps() const;
   bool save(const std::string& ground_truth, RunReport& report);
   bool save_dense_map(RunReport& report) const;
   void print_summary(const RunReport& report) const;

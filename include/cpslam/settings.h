@@ -113,7 +113,7 @@ struct Settings {
   /// Map file to begin with (System::save_map); empty: with nothing. Needs a vocabulary.
   std::string load_map;
   /// Only find the camera in the loaded map, which is not changed. Where the map shows nothing, poses are
-  /// carried on from frame to frame.
+  /// carried on from frame to frame. Until System::set_localization() says otherwise.
   bool localization = false;
   bool sequential =
       false;               ///< all stages one after the other in the caller's thread: reproducible to the bit

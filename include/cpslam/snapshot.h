@@ -31,6 +31,7 @@ struct FrameSnapshot {
   std::vector<WorldPoint> tracked_points;  ///< map points the pose stands on
   std::vector<PersonShape> people;         ///< none in a frame that was not tracked
   std::vector<StageTimes> stages;          ///< of the run so far
+  bool localization = false;               ///< nothing is mapped, System::set_localization()
 };
 
 /// An edge between two keyframes, by their places in MapSnapshot::keyframes.

@@ -3,6 +3,7 @@
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <string>
+#include <vector>
 
 #include "cpslam/dense_map.h"
 #include "cpslam/log.h"
@@ -53,6 +54,23 @@ class System {
   /// From now on lays snapshots (cpslam/snapshot.h) down on this board whenever somebody asks for one there,
   /// and the map once more at shutdown(); null: no longer. They change nothing in what is tracked and mapped.
   void publish_to(std::shared_ptr<SnapshotBoard> board);
+
+  /// On: from the next frame on the camera is only found in the map, which does not change any more once the
+  /// mapping under way is done; where the map shows nothing, poses are carried on (TrackResult::bridged).
+  /// Off: mapping goes on; a camera that is where the map shows nothing has to come back to it first, because
+  /// a keyframe out there would hang on a pose that has drifted. Throws InputError for "on" when there is no
+  /// map yet.
+  void set_localization(bool on);
+
+  /// Drops the map, a loaded one included (its file stays): the next frame starts a new one in a world of its
+  /// own. Detector, people, statistics and the board stay; frames tracked so far are in dropped_maps() from
+  /// now on and no longer in trajectory(), because the two worlds have nothing to do with each other. There
+  /// is no way back. Calls off the mapping under way, and waits for what cannot be: less than a second as a
+  /// rule. Does nothing while there is no map. Throws InputError when only localising, and RunError after
+  /// shutdown(); the state is then as before.
+  void reset();
+  /// The oldest first.
+  [[nodiscard]] const std::vector<DroppedMap>& dropped_maps() const;
 
   /// Finishes the mapping of the frames so far and ends the threads. Idempotent; track() may not follow.
   void shutdown();

@@ -63,7 +63,7 @@ struct TrackResult {
   int n_keypoints = 0;
   int n_inliers = 0;      ///< map points that agree with the pose
   bool keyframe = false;  ///< the frame became a keyframe
-  /// Settings::localization: the map shows nothing here, the pose is carried on from the frames before and
+  /// When only localising: the map shows nothing here, the pose is carried on from the frames before and
   /// drifts: kWeak, without a covariance.
   bool bridged = false;
 };
@@ -116,20 +116,27 @@ struct LoadedMapStatistics {
   bool other_vocabulary = false;        ///< it was made with other words: they were found anew
   std::optional<double> found_time_s;   ///< of the first frame that was recognised in it
   std::size_t frames_before_found = 0;  ///< frames without a pose until then
-  std::size_t bridged = 0;              ///< frames with TrackResult::bridged
+};
+
+/// What is left of a map that System::reset() dropped, in that map's world, with the poses of that moment.
+struct DroppedMap {
+  Trajectory trajectory;           ///< of its tracked frames
+  Trajectory keyframe_trajectory;  ///< of its keyframes that were alive
 };
 
 struct Statistics {
   std::size_t frames = 0;
   std::size_t tracked = 0;
-  std::size_t weak = 0;  ///< of them: TrackingState::kWeak
+  std::size_t weak = 0;     ///< of them: TrackingState::kWeak
+  std::size_t bridged = 0;  ///< of them: TrackResult::bridged
   std::size_t predicted = 0;
   std::size_t lost = 0;
   std::size_t not_initialized = 0;
-  std::size_t keyframes = 0;  ///< alive
-  std::size_t keyframes_created = 0;
-  std::size_t map_points = 0;  ///< alive
+  std::size_t keyframes = 0;          ///< alive
+  std::size_t keyframes_created = 0;  ///< in all maps of the run, as all counts of work
+  std::size_t map_points = 0;         ///< alive
   std::size_t map_points_created = 0;
+  std::size_t dropped_maps = 0;  ///< by System::reset()
   std::size_t local_bundle_adjustments = 0;
   PeopleStatistics people;
   LoopStatistics loops;

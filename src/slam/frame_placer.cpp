@@ -35,7 +35,7 @@ bool are_neighbours(const Map& map, KeyFrameId a, KeyFrameId b) {
 
 std::optional<Placement> FramePlacer::place(const PlacementPrior& prior, Frame& frame) {
   std::optional<Placement> moved = by_motion(prior, frame);
-  const bool few = is_few(moved);
+  const bool few = prior.may_bridge && is_few(moved);
   if (moved && !few && moved->inliers >= kSuspiciousShare * prior.last_inliers) return moved;
   // A second opinion. Where it is no better (a person steps in front of the camera), the first one stands.
   std::optional<Recognised> recognised = by_appearance(frame);
@@ -47,7 +47,6 @@ std::optional<Placement> FramePlacer::place(const PlacementPrior& prior, Frame& 
 }
 
 bool FramePlacer::is_few(const std::optional<Placement>& moved) const {
-  if (!rig_.settings.localization) return false;
   return !moved || moved->inliers < kRecognisedInliers * rig_.settings.tracking.min_inliers;
 }
 

@@ -28,12 +28,12 @@ struct PlacementPrior {
   const Frame& last;  ///< the latest frame with a pose
   int last_inliers = 0;
   SE3 predicted_cam_from_world;
+  bool may_bridge = false;  ///< where the map has little or nothing, go by what the last frame saw
 };
 
 /// Finds the pose of a frame: by the motion so far, or, when that fails or convinces little, by the
-/// appearance of known keyframes. With Settings::localization, which adds nothing to the map, by what the
-/// last frame saw where the map has little or nothing. Owns the local map. One thread; takes shared locks of
-/// the map.
+/// appearance of known keyframes; for those who add nothing to the map also by what the last frame saw, where
+/// the map has little or nothing. Owns the local map. One thread; takes shared locks of the map.
 class FramePlacer {
  public:
   /// places: null when places are not recognised.
@@ -49,7 +49,7 @@ class FramePlacer {
 
  private:
   std::optional<Placement> by_motion(const PlacementPrior& prior, Frame& frame);
-  /// Whether a map that nothing is added to has so little here that the last frame may have more.
+  /// Whether the map has so little here that the last frame may have more.
   [[nodiscard]] bool is_few(const std::optional<Placement>& moved) const;
   /// On what the last frame saw, in the map or not, if that is clearly more; else leaves it at `moved`.
   std::optional<Placement> by_last_frame(const PlacementPrior& prior, std::optional<Placement> moved,

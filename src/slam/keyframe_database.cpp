@@ -74,6 +74,12 @@ void KeyFrameDatabase::erase(KeyFrameId keyframe) {
   keyframes_.erase(found);
 }
 
+void KeyFrameDatabase::clear() {
+  const std::lock_guard lock(mutex_);
+  for (std::vector<Posting>& keyframes : postings_) keyframes.clear();
+  keyframes_.clear();
+}
+
 void KeyFrameDatabase::erase_postings(KeyFrameId keyframe, const BowVector& bow) {
   for (const WordWeight& word : bow) {
     std::erase_if(postings_[word.word], [&](const Posting& posting) { return posting.keyframe == keyframe; });

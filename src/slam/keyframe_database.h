@@ -41,6 +41,8 @@ class KeyFrameDatabase {
   void add(KeyFrameId keyframe, std::shared_ptr<const ImageWords> words);
   /// Does nothing for a keyframe that is not there.
   void erase(KeyFrameId keyframe);
+  /// Forgets all keyframes.
+  void clear();
   /// Null for a keyframe that is not there.
   [[nodiscard]] std::shared_ptr<const ImageWords> words(KeyFrameId keyframe) const;
   [[nodiscard]] std::size_t size() const;

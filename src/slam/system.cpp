@@ -10,14 +10,13 @@
 #include "detect/people.h"
 #include "features/image_check.h"
 #include "place/vocabulary_file.h"
-#include "slam/back_end.h"
 #include "slam/frame_input.h"
+#include "slam/live_map.h"
 #include "slam/map_archive.h"
 #include "slam/map_snapshot.h"
 #include "slam/places.h"
 #include "slam/rig.h"
 #include "slam/snapshot_publisher.h"
-#include "slam/tracking.h"
 
 namespace cpslam {
 namespace {
@@ -40,23 +39,18 @@ class System::Impl {
   Impl(const Settings& settings, std::unique_ptr<PersonDetector> detector, LogSink log)
       : log_(std::move(log)),
         rig_(checked(settings)),
-        map_(rig_.pyramid),
         places_(make_places(rig_.settings)),
-        loaded_(load_map(rig_, map_, places_.get(), log_)),
+        live_(make_map(true)),
         features_(rig_.settings.camera, rig_.settings.orb),
-        people_(rig_.settings, std::move(detector), timer_, log_),
-        tracking_(rig_, map_, places_.get(), timer_, log_,
-                  loaded_ ? std::move(loaded_->frames) : std::vector<LoggedFrame>()),
-        back_end_(rig_, map_, places_.get(), timer_, log_) {
-    const DenseSettings& dense = rig_.settings.dense;
-    if (dense.enabled)
-      dense_views_.emplace(rig_.camera, static_cast<std::size_t>(dense.memory_mb) << 20U, log_);
+        people_(rig_.settings, std::move(detector), timer_, log_) {
+    if (live_->loaded) counts_.loaded_map = live_->loaded->statistics;
+    begin_dense_views();
   }
 
   TrackResult track(const RgbdFrame& frame) {
     const double depth_time_s = frame.depth_time_s.value_or(frame.time_s);
     check_input(frame, depth_time_s);
-    back_end_.let_catch_up();
+    live_->back_end.let_catch_up();
     if (!last_time_s_) warn_about_depth_scale(frame.depth, rig_.settings.camera.depth_map_factor, log_);
     const double interval_s = frame.time_s - last_time_s_.value_or(frame.time_s);
     last_time_s_ = frame.time_s;
@@ -64,27 +58,53 @@ class System::Impl {
     const auto start = std::chrono::steady_clock::now();
     {
       const auto scope = timer_.time("track");
-      people_.begin(frame, tracking_.expected_motion(interval_s));
+      people_.begin(frame, live_->tracking.expected_motion(interval_s));
       std::shared_ptr<const FrameFeatures> features = static_features(frame, depth_time_s - frame.time_s);
-      result = tracking_.track(frame.time_s, std::move(features), back_end_.load());
-      people_.end(tracking_.expected_motion(interval_s), is_tracked(result.state));
+      result = live_->tracking.track(frame.time_s, std::move(features), live_->back_end.load());
+      people_.end(live_->tracking.expected_motion(interval_s), is_tracked(result.state));
     }
     const std::chrono::duration<double, std::milli> duration = std::chrono::steady_clock::now() - start;
     count(result);
     // After the clock has stopped: mapping in this thread, or waiting for the mapper, is not tracking.
-    if (const KeyFrameId keyframe = tracking_.take_keyframe(); keyframe.valid()) {
+    if (const KeyFrameId keyframe = live_->tracking.take_keyframe(); keyframe.valid()) {
       if (dense_views_) add_dense_view(keyframe, frame, depth_time_s - frame.time_s);
-      back_end_.add(keyframe);
+      live_->back_end.add(keyframe);
     }
     publish(frame.colour, result, duration.count());
     return result;
   }
 
+  void set_localization(bool on) {
+    if (on && !has_map()) throw InputError("there is no map yet to localise in");
+    if (on != live_->tracking.localizing())
+      log_.info(on ? "localisation: the map stays as it is" : "mapping");
+    live_->tracking.set_localizing(on);
+  }
+
+  void reset() {
+    if (finished_) throw RunError("reset() was called after shutdown()");
+    if (!has_map()) return;
+    if (live_->tracking.localizing())
+      throw InputError("the map is not dropped while localising in it: switch localisation off first");
+    std::unique_ptr<LiveMap> next = make_map(false);
+    dropped_.push_back({live_->tracking.trajectory(), live_->keyframe_trajectory()});
+    live_.swap(next);
+    next->add_work_to(counts_);
+    next.reset();  // its threads are at work in the words until here
+    if (places_) places_->database.clear();
+    begin_dense_views();
+    log_.info("map dropped; the poses of its " + std::to_string(dropped_.back().trajectory.size()) +
+              " frames are kept");
+    if (publisher_) publisher_->publish_map([this] { return map_snapshot(); });
+  }
+
+  [[nodiscard]] const std::vector<DroppedMap>& dropped_maps() const { return dropped_; }
+
   void shutdown() {
     if (finished_) return;
     finished_ = true;
     people_.finish();
-    back_end_.finish();
+    live_->back_end.finish();
     if (publisher_) publisher_->publish_map([this] { return map_snapshot(); });
   }
 
@@ -94,18 +114,16 @@ class System::Impl {
   }
 
   void save_map(const std::string& path) const {
-    cpslam::save_map(path, rig_, map_, places_.get(), tracking_.logged_frames());
+    cpslam::save_map(path, rig_, live_->map, places_.get(), live_->tracking.logged_frames());
   }
 
-  [[nodiscard]] Trajectory trajectory() const { return tracking_.trajectory(); }
-  [[nodiscard]] Trajectory keyframe_trajectory() const {
-    return keyframe_poses(map_, loaded_ ? loaded_->next_sequence : 0);
-  }
+  [[nodiscard]] Trajectory trajectory() const { return live_->tracking.trajectory(); }
+  [[nodiscard]] Trajectory keyframe_trajectory() const { return live_->keyframe_trajectory(); }
 
   [[nodiscard]] DenseMap dense_map(const DenseMapOptions& options) const {
     if (!dense_views_) throw InputError("there is no dense map without settings.dense.enabled");
     return DenseMap(std::make_unique<const DenseMap::Impl>(
-        options, dense_views_->camera(), dense_views_->place(map_), dense_views_->n_dropped()));
+        options, dense_views_->camera(), dense_views_->place(live_->map), dense_views_->n_dropped()));
   }
 
   [[nodiscard]] FrameView frame_view() const {
@@ -118,20 +136,32 @@ class System::Impl {
 
   [[nodiscard]] Statistics statistics() const {
     Statistics statistics = counts_;
-    statistics.local_bundle_adjustments = back_end_.local_bundle_adjustments();
-    statistics.loops = back_end_.loop_statistics();
+    live_->add_work_to(statistics);
+    statistics.dropped_maps = dropped_.size();
     statistics.people = people_.statistics();
-    if (loaded_) statistics.loaded_map = loaded_->statistics;
     statistics.stages = timer_.summary();
-    const std::shared_lock lock(map_.mutex());
-    statistics.keyframes = map_.n_keyframes();
-    statistics.keyframes_created = map_.keyframes_created();
-    statistics.map_points = map_.n_points();
-    statistics.map_points_created = map_.points_created();
+    const std::shared_lock lock(live_->map.mutex());
+    statistics.keyframes = live_->map.n_keyframes();
+    statistics.map_points = live_->map.n_points();
     return statistics;
   }
 
  private:
+  [[nodiscard]] std::unique_ptr<LiveMap> make_map(bool begin_loaded) {
+    return std::make_unique<LiveMap>(rig_, places_.get(), begin_loaded, timer_, log_);
+  }
+
+  [[nodiscard]] bool has_map() const {
+    const std::shared_lock lock(live_->map.mutex());
+    return live_->map.n_keyframes() > 0;
+  }
+
+  void begin_dense_views() {
+    const DenseSettings& dense = rig_.settings.dense;
+    if (dense.enabled)
+      dense_views_.emplace(rig_.camera, static_cast<std::size_t>(dense.memory_mb) << 20U, log_);
+  }
+
   void check_input(const RgbdFrame& frame, double depth_time_s) const {
     if (finished_) throw RunError("track() was called after shutdown()");
     check_images(frame.colour, frame.depth, {rig_.camera.width(), rig_.camera.height()});
@@ -150,7 +180,7 @@ class System::Impl {
     {
       const auto scope = timer_.time("track: features");
       candidates_ = &features_.extract(to_grey(frame.colour), frame.depth,
-                                       tracking_.expected_motion(depth_delay_s), people_.prior());
+                                       live_->tracking.expected_motion(depth_delay_s), people_.prior());
     }
     kept_ = people_.filter(*candidates_);
     if (const int missing = people_.missing_keypoints(kept_); missing > 0) {
@@ -168,13 +198,13 @@ class System::Impl {
     seen.metres_per_unit = 1.0 / rig_.settings.camera.depth_map_factor;
     seen.moving = people_.moving();
     SE3 depth_cam_from_colour_cam;
-    if (depth_delay_s != 0.0) depth_cam_from_colour_cam = tracking_.expected_motion(depth_delay_s);
+    if (depth_delay_s != 0.0) depth_cam_from_colour_cam = live_->tracking.expected_motion(depth_delay_s);
     seen.colour_cam_from_depth_cam = depth_cam_from_colour_cam.inverse();
-    dense_views_->add(keyframe, seen, depth_cam_from_colour_cam, map_);
+    dense_views_->add(keyframe, seen, depth_cam_from_colour_cam, live_->map);
   }
 
   void show_keypoints(FrameView& view) const {
-    const std::vector<bool> tracked = tracking_.tracked_keypoints();
+    const std::vector<bool> tracked = live_->tracking.tracked_keypoints();
     std::size_t n_kept = 0;
     for (std::size_t i = 0; i < kept_.size(); ++i) {
       const OrbKeypoint& k = candidates_->orb.keypoints[i];
@@ -200,20 +230,22 @@ class System::Impl {
     snapshot.result = result;
     snapshot.image = colour.clone();
     snapshot.view = frame_view();
-    snapshot.tracked_points = tracking_.tracked_points();
+    snapshot.tracked_points = live_->tracking.tracked_points();
     if (is_tracked(result.state)) snapshot.people = people_.shapes(from_pose(result.world_from_camera));
     snapshot.stages = timer_.summary();
+    snapshot.localization = live_->tracking.localizing();
     return snapshot;
   }
 
   [[nodiscard]] MapSnapshot map_snapshot() const {
-    MapSnapshot snapshot = copy_for_viewer(map_);
-    snapshot.trajectory = tracking_.trajectory();
+    MapSnapshot snapshot = copy_for_viewer(live_->map);
+    snapshot.trajectory = live_->tracking.trajectory();
     return snapshot;
   }
 
   void count(const TrackResult& result) {
-    if (loaded_) count_in_loaded_map(result, loaded_->statistics);
+    if (live_->loaded) count_in_loaded_map(result, *counts_.loaded_map);
+    if (result.bridged) ++counts_.bridged;
     ++counts_.frames;
     switch (result.state) {
       case TrackingState::kWeak:
@@ -235,7 +267,6 @@ class System::Impl {
   }
 
   void count_in_loaded_map(const TrackResult& result, LoadedMapStatistics& loaded) const {
-    if (result.bridged) ++loaded.bridged;
     if (loaded.found_time_s) return;
     if (is_tracked(result.state)) {
       loaded.found_time_s = result.time_s;
@@ -247,15 +278,13 @@ class System::Impl {
   const Log log_;
   const Rig rig_;
   StageTimer timer_;
-  Map map_;
   std::unique_ptr<Places> places_;
-  std::optional<LoadedMap> loaded_;
+  Statistics counts_;              // those of the present map are asked for
+  std::unique_ptr<LiveMap> live_;  // never null
+  std::vector<DroppedMap> dropped_;
   FrameFeaturesBuilder features_;
   People people_;
-  Tracking tracking_;
-  BackEnd back_end_;
   std::optional<DenseViews> dense_views_;  // empty unless a dense map is wanted
-  Statistics counts_;
   std::optional<double> last_time_s_;
   KeypointCandidates* candidates_ = nullptr;  // of the last frame; features_ owns them
   std::vector<std::uint8_t> kept_;            // parallel to them
@@ -282,6 +311,15 @@ FrameView System::frame_view() const {
 }
 void System::publish_to(std::shared_ptr<SnapshotBoard> board) {
   impl_->publish_to(std::move(board));
+}
+void System::set_localization(bool on) {
+  impl_->set_localization(on);
+}
+void System::reset() {
+  impl_->reset();
+}
+const std::vector<DroppedMap>& System::dropped_maps() const {
+  return impl_->dropped_maps();
 }
 void System::shutdown() {
   impl_->shutdown();

@@ -37,6 +37,7 @@ Tracking::Tracking(const Rig& rig, Map& map, const Places* places, StageTimer& t
       map_(map),
       timer_(timer),
       log_(std::move(log)),
+      localizing_(rig.settings.localization),
       placer_(rig, map, places, timer),
       trajectory_(std::move(earlier)) {
   // In a loaded map the camera is somewhere, only nobody knows where yet.
@@ -62,7 +63,7 @@ TrackResult Tracking::track(double time_s, std::shared_ptr<const FrameFeatures> 
     finish_tracked(std::move(frame), result);
   } else if (place(frame)) {
     update_velocity(frame);
-    if (!rig_.settings.localization) count_visible(frame);
+    if (!localizing_) count_visible(frame);
     best_inliers_ = std::max(best_inliers_, placement_.inliers);
     result.keyframe = should_insert(frame, load);
     if (result.keyframe) insert(frame);
@@ -89,7 +90,9 @@ bool Tracking::initialize(Frame& frame) {
 bool Tracking::place(Frame& frame) {
   while (true) {
     const std::uint64_t corrections = refresh_last();
-    const PlacementPrior prior{last_, last_inliers_, predicted_pose(frame.time_s)};
+    // Who has left the map while localising is carried on until he is back, whatever was asked for meanwhile.
+    const bool may_bridge = localizing_ || placement_.bridged;
+    const PlacementPrior prior{last_, last_inliers_, predicted_pose(frame.time_s), may_bridge};
     std::optional<Placement> placement = placer_.place(prior, frame);
     // The frame may have been placed half in the map before and half in the one after a loop was closed.
     if (corrections != present_corrections()) continue;
@@ -129,7 +132,7 @@ void Tracking::count_visible(const Frame& frame) {
 }
 
 bool Tracking::should_insert(const Frame& frame, MapperLoad load) const {
-  if (rig_.settings.localization) return false;
+  if (localizing_ || placement_.bridged) return false;
   KeyFrameEvidence evidence;
   evidence.inliers = placement_.inliers;
   for (std::size_t i = 0; i < frame.matches.size(); ++i) {

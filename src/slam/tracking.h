@@ -25,6 +25,11 @@ class Tracking {
   /// load: what the mapper has to do, as far as it may influence the decision for a keyframe.
   TrackResult track(double time_s, std::shared_ptr<const FrameFeatures> features, MapperLoad load);
 
+  /// On: frames are only placed, in a map that nothing is added to. Off: mapping goes on as soon as a frame
+  /// stands on the map.
+  void set_localizing(bool on) { localizing_ = on; }
+  [[nodiscard]] bool localizing() const { return localizing_; }
+
   /// The keyframe that the last call of track() put into the map, for the mapper; invalid when there is none
   /// or it was taken before.
   [[nodiscard]] KeyFrameId take_keyframe();
@@ -65,6 +70,7 @@ class Tracking {
   Log log_;
 
   TrackingState state_ = TrackingState::kNotInitialized;  // kTracked for weak poses, too
+  bool localizing_;
   FramePlacer placer_;
   Placement placement_;        // of the frame at hand
   int last_inliers_ = 0;       // of last_

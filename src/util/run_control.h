@@ -6,11 +6,18 @@
 #include <mutex>
 #include <optional>
 #include <stop_token>
+#include <utility>
 
 namespace cpslam {
 
-/// How somebody at the screen steers a run through a sequence: pause, single steps, the end. The run asks for
-/// its turn before each frame. Thread-safe.
+/// What is to be done to the map before the next frame.
+struct MapWishes {
+  bool reset = false;
+  std::optional<bool> localization;  ///< after the reset; to be switched on or off
+};
+
+/// How somebody at the screen steers a run: pause, single steps, the end, and what is done to the map. The
+/// run asks for its turn and for the wishes before each frame. Thread-safe.
 class RunControl {
  public:
   void pause() {
@@ -37,6 +44,25 @@ class RunControl {
     changed_.notify_all();
   }
 
+  void wish_reset() {
+    const std::lock_guard lock(mutex_);
+    wishes_.reset = true;
+  }
+  void wish_localization(bool on) {
+    const std::lock_guard lock(mutex_);
+    wishes_.localization = on;
+  }
+  /// Those of now: they count as fulfilled.
+  [[nodiscard]] MapWishes take_wishes() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(wishes_, {});
+  }
+  /// Those not taken yet.
+  [[nodiscard]] MapWishes wishes() const {
+    const std::lock_guard lock(mutex_);
+    return wishes_;
+  }
+
   [[nodiscard]] bool paused() const {
     const std::lock_guard lock(mutex_);
     return paused_;
@@ -61,6 +87,7 @@ class RunControl {
   std::condition_variable changed_;
   bool paused_ = false;
   std::size_t steps_ = 0;  // asked for and not yet taken
+  MapWishes wishes_;
 };
 
 }  // namespace cpslam

@@ -86,7 +86,7 @@ TEST(RealClipsEndToEnd, DeskInItsOwnMap) {
   const RealRun localised(clip, "TUM1.yaml", nullptr, settings);
   EXPECT_GE(localised.statistics.tracked, 248U);
   EXPECT_EQ(localised.statistics.keyframes_created, mapping.statistics.keyframes_created);
-  EXPECT_LE(localised.statistics.loaded_map->bridged, 2U);
+  EXPECT_LE(localised.statistics.bridged, 2U);
   EXPECT_LE(localised.error.rmse_m, 0.02);
 }
 

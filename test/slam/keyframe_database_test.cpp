@@ -162,5 +162,16 @@ TEST_F(KeyFrameDatabaseTest, SeveralThreadsAtOnce) {
   EXPECT_THAT(ask(10), testing::Not(IsEmpty()));
 }
 
+TEST_F(KeyFrameDatabaseTest, ClearedItKnowsNobodyAndLearnsAnew) {
+  const KeyFrameId first = add(10);
+  add(12);
+  database_.clear();
+  EXPECT_EQ(database_.size(), 0U);
+  EXPECT_EQ(database_.words(first), nullptr);
+  EXPECT_THAT(ask(10), IsEmpty());
+  const KeyFrameId later = add(10);
+  EXPECT_THAT(ask(10), ElementsAre(later));
+}
+
 }  // namespace
 }  // namespace cpslam

@@ -93,6 +93,21 @@ TEST(RunControl, QuittingEndsAPausedRun) {
   EXPECT_FALSE(control.wait_for_turn());
 }
 
+TEST(RunControl, WishesCountOnceAndTheLatestWordCounts) {
+  RunControl control;
+  EXPECT_FALSE(control.take_wishes().reset);
+  EXPECT_FALSE(control.take_wishes().localization.has_value());
+  control.wish_reset();
+  control.wish_localization(true);
+  control.wish_localization(false);
+  EXPECT_TRUE(control.wishes().reset) << "to look does not take";
+  const MapWishes taken = control.take_wishes();
+  EXPECT_TRUE(taken.reset);
+  EXPECT_EQ(taken.localization, std::optional(false));
+  EXPECT_FALSE(control.wishes().reset);
+  EXPECT_FALSE(control.take_wishes().localization.has_value());
+}
+
 TEST(RunControl, TellsHowLongThePauseWas) {
   RunControl control;
   control.pause();

@@ -28,6 +28,7 @@ viewer::ViewerOptions viewer_options(const SlamOptions& options, const ViewedRun
   result.camera = run.settings.camera;
   result.truth = read_truth(run.ground_truth);
   result.can_pause = run.can_pause;
+  result.localization = run.settings.localization;
   result.screenshot_folder = options.output;
   result.final_picture = options.viewer.final_picture;
   return result;

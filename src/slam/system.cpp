@@ -77,7 +77,7 @@ class System::Impl {
   void set_localization(bool on) {
     if (on && !has_map()) throw InputError("there is no map yet to localise in");
     if (on != live_->tracking.localizing())
-      log_.info(on ? "localisation: the map stays as it is" : "mapping");
+      log_.info(on ? "localisation: the map stays as it is" : "mapping goes on");
     live_->tracking.set_localizing(on);
   }
 

@@ -88,7 +88,7 @@ void CameraPanel::draw_seen(const Gui& gui, ImVec2 corner, float scale) const {
   for (const FrameView::SeenKeypoint& keypoint : frame_->view.keypoints) {
     // A pixel's area reaches half a pixel around its coordinates.
     const ImVec2 at(corner.x + scale * (keypoint.x + 0.5F), corner.y + scale * (keypoint.y + 0.5F));
-    list.AddCircleFilled(at, kKeypointPx, to_u32(keypoint_colour(keypoint.kind)), 6);
+    list.AddCircleFilled(at, kKeypointPx, to_u32(keypoint_colour(keypoint.kind)), 4);
   }
   list.Flags = flags;
   for (const PersonBox& box : frame_->view.boxes) {

@@ -43,6 +43,22 @@ void draw_layers(const MapFacts& facts, Layers& layers) {
   layer_switch("Floor", kQuietText, layers.grid);
 }
 
+void draw_run_buttons(const RunFacts& run, PanelWishes& wishes) {
+  if (run.can_pause) {
+    wishes.pause = choice(run.paused ? "Go on" : "Pause", run.paused, "Space");
+    ImGui::SameLine();
+    wishes.step = choice("Step", false, "The next frame, then pause (N)");
+    ImGui::SameLine();
+  }
+  wishes.localization = choice("Localise only", run.localizing,
+                               run.localizing ? "Map again (L)" : "Leave the map as it is from now on (L)");
+  ImGui::SameLine();
+  wishes.reset = choice(run.reset_armed ? "Drop the map?" : "Reset map", run.reset_armed,
+                        run.reset_armed ? "Once more to do it (R)"
+                                        : "Start a new map; the poses so far are kept in a file (R, twice)");
+  ImGui::SameLine();
+}
+
 }  // namespace
 
 void draw_map_panel(const Gui& gui, const MapFacts& facts, ImVec2 corner, ImVec2 size, Layers& layers,
@@ -60,22 +76,18 @@ void draw_map_panel(const Gui& gui, const MapFacts& facts, ImVec2 corner, ImVec2
   ImGui::End();
 }
 
-PanelWishes draw_play_panel(const Gui& gui, const MapFacts& facts, ImVec2 corner, ImVec2 size, bool can_pause,
-                            bool paused) {
+PanelWishes draw_play_panel(const Gui& gui, const RunFacts& run, ImVec2 corner, ImVec2 size) {
   PanelWishes wishes;
   const float margin = 14.0F * gui.scale();
   ImGui::SetNextWindowPos({corner.x + size.x - margin, corner.y + size.y - margin}, ImGuiCond_Always,
                           {1.0F, 1.0F});
   ImGui::Begin("play", nullptr, kOverlay);
-  if (facts.ended) {
+  if (run.ended) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("The run has ended");
     ImGui::SameLine();
-  } else if (can_pause) {
-    wishes.pause = choice(paused ? "Go on" : "Pause", paused, "Space");
-    ImGui::SameLine();
-    wishes.step = choice("Step", false, "The next frame, then pause (N)");
-    ImGui::SameLine();
+  } else {
+    draw_run_buttons(run, wishes);
   }
   wishes.screenshot = choice("Screenshot", false, "Into the output folder (S)");
   ImGui::End();

@@ -13,14 +13,12 @@ uniform float size_m;
 uniform float least_px;
 uniform float most_px;
 uniform float fade_from_m;
-uniform float nearer;
 uniform vec3 background;
 out vec4 shown;
 void main() {
   vec4 in_eye = eye_from_world * vec4(position, 1.0);
   float distance_m = max(-in_eye.z, 1e-3);
   gl_Position = clip_from_eye * in_eye;
-  gl_Position.z -= nearer * gl_Position.w;
   gl_PointSize = clamp(focal_px * size_m / distance_m, least_px, most_px);
   float fade = 1.0 - exp(-0.5 * max(distance_m / fade_from_m - 1.0, 0.0));
   shown = vec4(mix(colour.rgb, background, 0.75 * fade), colour.a);

@@ -9,8 +9,14 @@ namespace {
 constexpr double kYawRad = -0.4;
 constexpr double kPitchRad = 0.7;
 constexpr double kGlidePerS = 5.0;
-constexpr double kNear = 0.002;  // of the distance: there
-constexpr double kRoom = 1.0;    // around the map: its ball has corners to spare
+constexpr double kNear = 0.002;    // of the distance: there
+constexpr double kRoom = 1.0;      // around the map: its ball has corners to spare
+constexpr double kNotable = 0.04;  // of the map's radius: by less the overview does not move
+
+bool is_notable(const Extent& before, const Extent& now) {
+  return (now.centre - before.centre).norm() > kNotable * before.radius_m ||
+         std::abs(now.radius_m - before.radius_m) > kNotable * before.radius_m;
+}
 
 }  // namespace
 
@@ -30,7 +36,10 @@ void ViewControl::reset() {
 
 void ViewControl::set_map(const MapSnapshot& map) {
   const Eigen::Vector3d up = up_of(map);
-  extent_ = extent_of(map, up);
+  const std::optional<Extent> extent = extent_of(map, up);
+  // A map grows all the time. An eye that always follows never rests, and each of its moves is a drawing of
+  // the whole map.
+  if (!extent || !extent_ || is_notable(*extent_, *extent)) extent_ = extent;
   eye_.set_up(up);
 }
 

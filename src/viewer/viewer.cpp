@@ -17,19 +17,18 @@ namespace {
 
 constexpr int kSettlingDraws = 3;
 constexpr double kMapsPerS = 4.0;
+constexpr double kResetS = 4.0;       // for the second press
 constexpr float kColumnShare = 0.4F;  // of the window's width, for the camera's column
 
 double seconds_since(std::chrono::steady_clock::time_point then) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
 }
 
-/// Far cheaper than a window's ground drawn by ImGui where the processor does the drawing.
-void clear(const cv::Rect& area_px, Colour colour) {
-  glEnable(GL_SCISSOR_TEST);
-  glScissor(area_px.x, area_px.y, area_px.width, area_px.height);
+/// Far cheaper than a window's ground drawn by ImGui where the processor does the drawing, and than a clear
+/// for each of the window's parts.
+void clear(Colour colour) {
   glClearColor(colour.red / 255.0F, colour.green / 255.0F, colour.blue / 255.0F, 1.0F);
   glClear(static_cast<GLbitfield>(GL_COLOR_BUFFER_BIT) | static_cast<GLbitfield>(GL_DEPTH_BUFFER_BIT));
-  glDisable(GL_SCISSOR_TEST);
 }
 
 }  // namespace
@@ -47,11 +46,13 @@ Viewer::Viewer(ViewerOptions options, std::shared_ptr<SnapshotBoard> board, RunC
 
 void Viewer::run(const std::function<bool()>& run_ended, const std::function<bool()>& interrupted) {
   while (!window_.close_requested() && !interrupted()) {
-    window_.wait_for_events(std::max(0.001, 1.0 / kMaxFramesPerS - seconds_since(drawn_)));
+    const double rest_s = 1.0 / kMaxFramesPerS - seconds_since(drawn_);
+    window_.wait_for_events(stale_draws_ > 0 ? std::max(0.001, rest_s) : 1.0 / kMaxFramesPerS);
     // Asked before the snapshots are taken, so that the last ones are seen.
     const bool ended = run_ended();
-    const bool fresh = take_snapshots() || ended != facts_.ended;
-    facts_.ended = ended;
+    const bool fresh = take_snapshots() || ended != ended_;
+    ended_ = ended;
+    disarm_reset();
     handle_keys();
     if (fresh || window_.take_activity()) stale_draws_ = kSettlingDraws;
     if (!is_due()) continue;
@@ -92,6 +93,7 @@ bool Viewer::take_snapshots() {
     facts_.people = frame_->people.size();
     const auto& at = frame_->result.world_from_camera.translation_m;
     if (is_tracked(frame_->result.state)) view_.set_camera({at[0], at[1], at[2]});
+    if (!control_.wishes().localization) wished_localization_.reset();
     fresh = true;
   }
   request_snapshots();
@@ -130,6 +132,12 @@ void Viewer::handle_keys() {
       case 'N':
         if (options_.can_pause) step();
         break;
+      case 'L':
+        switch_localization();
+        break;
+      case 'R':
+        reset_map();
+        break;
       case 'S':
         wants_screenshot_ = true;
         break;
@@ -163,6 +171,38 @@ void Viewer::step() {
   control_.step();
 }
 
+RunFacts Viewer::run_facts() const {
+  RunFacts facts;
+  facts.can_pause = options_.can_pause;
+  facts.paused = control_.paused();
+  facts.localizing = wished_localization_.value_or(frame_ ? frame_->localization : options_.localization);
+  facts.reset_armed = reset_armed_.has_value();
+  facts.ended = ended_;
+  return facts;
+}
+
+void Viewer::switch_localization() {
+  if (ended_) return;
+  wished_localization_ = !run_facts().localizing;
+  control_.wish_localization(*wished_localization_);
+}
+
+void Viewer::reset_map() {
+  if (ended_) return;
+  if (reset_armed_) {
+    control_.wish_reset();
+    reset_armed_.reset();
+  } else {
+    reset_armed_ = Clock::now();
+  }
+}
+
+void Viewer::disarm_reset() {
+  if (!reset_armed_ || seconds_since(*reset_armed_) < kResetS) return;
+  reset_armed_.reset();
+  stale_draws_ = kSettlingDraws;
+}
+
 void Viewer::handle_mouse() {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.WantCaptureMouse) return;
@@ -193,8 +233,7 @@ void Viewer::draw() {
   const cv::Rect map_area(column, 0, std::max(0, size.width - column), size.height);
   if (!map_area.empty()) view_.set_aspect(static_cast<double>(map_area.width) / map_area.height);
   if (view_.glide(dt_s)) stale_draws_ = std::max(stale_draws_, 1);
-  clear({0, 0, column, size.height}, kPanel);
-  clear(map_area, kBackground);
+  clear(kPanel);
   scene_.draw(view_.eye(), map_area, window_.pixel_ratio() * gui_.scale(), layers_);
   glViewport(0, 0, size.width, size.height);
   gui_.draw_frame();
@@ -217,10 +256,11 @@ void Viewer::lay_out() {
   ImGui::End();
   const ImVec2 size(whole.x - corner.x, whole.y);
   draw_map_panel(gui_, facts_, corner, size, layers_, view_);
-  const PanelWishes wishes =
-      draw_play_panel(gui_, facts_, corner, size, options_.can_pause, control_.paused());
+  const PanelWishes wishes = draw_play_panel(gui_, run_facts(), corner, size);
   if (wishes.pause) pause_or_go_on();
   if (wishes.step) step();
+  if (wishes.localization) switch_localization();
+  if (wishes.reset) reset_map();
   wants_screenshot_ |= wishes.screenshot;
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <opencv2/core/types.hpp>
+#include <optional>
 #include <string>
 
 #include "cpslam/settings.h"
@@ -21,8 +22,9 @@ namespace cpslam::viewer {
 
 struct ViewerOptions {
   CameraSettings camera;
-  Trajectory truth;       ///< of the whole sequence, in a world of its own; empty when there is none
-  bool can_pause = true;  ///< not with a live camera
+  Trajectory truth;           ///< of the whole sequence, in a world of its own; empty when there is none
+  bool can_pause = true;      ///< not with a live camera
+  bool localization = false;  ///< Settings::localization
   std::string screenshot_folder = ".";
   /// Not empty: when the run has ended, the window's picture goes into this PNG file and the window closes.
   std::string final_picture;
@@ -56,6 +58,11 @@ class Viewer {
   void handle_keys();
   void pause_or_go_on();
   void step();
+  void switch_localization();
+  /// The map goes at the second press within four seconds, because there is no way back.
+  void reset_map();
+  void disarm_reset();
+  [[nodiscard]] RunFacts run_facts() const;
   void handle_mouse();
   [[nodiscard]] bool is_due() const;
   void draw();
@@ -77,6 +84,9 @@ class Viewer {
   std::shared_ptr<const FrameSnapshot> frame_;
   std::shared_ptr<const MapSnapshot> map_;
   Clock::time_point map_taken_, drawn_;
+  std::optional<Clock::time_point> reset_armed_;  // when reset was pressed once
+  std::optional<bool> wished_localization_;       // until a frame says how it is
+  bool ended_ = false;                            // no more frames come
   int stale_draws_ = 0;  // draws to come although nothing is new: ImGui settles over a few frames
   bool wants_screenshot_ = false;
 };

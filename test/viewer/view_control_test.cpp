@@ -33,6 +33,26 @@ TEST(ViewControl, TheOverviewHoldsTheMapAtOnceAndAsItGrows) {
   EXPECT_NEAR((view.eye().target() - extent_of(large, up_of(large))->centre).norm(), 0.0, 0.1);
 }
 
+TEST(ViewControl, TheOverviewRestsWhileTheMapHardlyGrows) {
+  ViewControl view;
+  MapSnapshot map = sample::map(500, 5);
+  view.set_map(map);
+  view.glide(0.03);
+  const Eigen::Vector3d eye = view.eye().eye();
+  const auto grow = [&map](float factor) {
+    for (WorldPoint& p : map.points) p = {factor * p[0], p[1], factor * p[2]};
+  };
+  grow(1.01F);
+  view.set_map(map);
+  EXPECT_FALSE(view.glide(0.03));
+  EXPECT_LT((view.eye().eye() - eye).norm(), 0.02) << "up may be another one by now";
+  for (int i = 0; i < 10; ++i) {
+    grow(1.01F);
+    view.set_map(map);
+  }
+  EXPECT_TRUE(view.glide(0.03)) << "many small steps are a large one";
+}
+
 TEST(ViewControl, FollowingKeepsTheCameraInTheMiddleAtTheUsersDistance) {
   ViewControl view;
   view.set_map(sample::map(500, 5));

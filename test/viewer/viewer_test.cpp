@@ -204,6 +204,75 @@ TEST_F(ViewerTest, KeysPauseStepGoOnAndSaveThePicture) {
   EXPECT_TRUE(control.quitting());
 }
 
+TEST_F(ViewerTest, LocalisationIsSwitchedByKeyAndShownAsTheFramesSayItIs) {
+  RunControl control;
+  const auto board = std::make_shared<SnapshotBoard>();
+  board->publish(std::make_shared<const FrameSnapshot>(sample::frame(7)));
+  Viewer viewer(options(), board, control);
+  viewer.draw_once();
+  const WindowUser user("CP-SLAM");
+  std::vector<bool> wishes;
+  std::uint64_t index = 7;
+  const auto watch = [&] {
+    if (wishes.empty() && index == 7) {
+      user.press("l");
+      ++index;
+    }
+    if (const std::optional<bool> wish = control.wishes().localization) {
+      wishes.push_back(*wish);
+      EXPECT_FALSE(control.take_wishes().reset);
+      FrameSnapshot obeyed = sample::frame(++index);
+      obeyed.localization = *wish;
+      board->publish(std::make_shared<const FrameSnapshot>(obeyed));
+      user.press(wishes.size() < 3 ? "l" : "q");
+    }
+    return false;
+  };
+  viewer.run(watch, never);
+  EXPECT_EQ(wishes, (std::vector<bool>{true, false, true}));
+}
+
+TEST_F(ViewerTest, TheMapIsDroppedOnlyAtTheSecondPress) {
+  RunControl control;
+  Viewer viewer(options(), std::make_shared<SnapshotBoard>(), control);
+  viewer.draw_once();
+  const WindowUser user("CP-SLAM");
+  const std::string picture = folder.path() + "/viewer-000000.png";
+  int stage = 0;
+  const auto watch = [&] {
+    if (stage == 0) {
+      user.press("r");
+      user.press("s");  // its file tells that the first press has arrived
+      ++stage;
+    } else if (stage == 1 && std::filesystem::exists(picture)) {
+      EXPECT_FALSE(control.wishes().reset);
+      user.press("r");
+      ++stage;
+    } else if (stage == 2 && control.wishes().reset) {
+      user.press("q");
+      ++stage;
+    }
+    return false;
+  };
+  viewer.run(watch, never);
+  EXPECT_EQ(stage, 3);
+}
+
+TEST_F(ViewerTest, AnEmptyMapAfterAFullOneIsDrawnToo) {
+  const cv::Mat empty = map_part(picture_of(MapSnapshot{}, sample::frame(7)));
+  const auto board = std::make_shared<SnapshotBoard>();
+  board->publish(std::make_shared<const MapSnapshot>(sample::map(2000, 12)));
+  board->publish(std::make_shared<const FrameSnapshot>(sample::frame(7)));
+  RunControl control;
+  Viewer viewer(options(folder.path() + "/reset.png"), board, control);
+  viewer.draw_once();
+  board->publish(std::make_shared<const MapSnapshot>());
+  viewer.run([] { return true; }, never);
+  const cv::Mat reset = map_part(cv::imread(folder.path() + "/reset.png"));
+  EXPECT_EQ(count(reset, kTrajectory), count(empty, kTrajectory));
+  EXPECT_EQ(count(reset, kLoop), count(empty, kLoop)) << "the switch of that layer alone";
+}
+
 TEST_F(ViewerTest, ALiveCameraIsNotPaused) {
   RunControl control;
   ViewerOptions live = options();

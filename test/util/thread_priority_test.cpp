@@ -22,7 +22,7 @@ TEST(ThreadPriority, OnlyTheThreadThatAsksAndItsChildrenGiveWay) {
     polite = nice_of_this_thread();
     std::jthread([&] { child = nice_of_this_thread(); }).join();
   }).join();
-  EXPECT_GE(polite, 10);
+  EXPECT_EQ(polite, 19);
   EXPECT_EQ(child, polite);
   EXPECT_EQ(nice_of_this_thread(), before);
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <opencv2/imgproc.hpp>
 
 #include "detect/depth_grid.h"
 
@@ -60,10 +61,12 @@ cv::Mat1b person_mask(const GridCamera& camera, const std::vector<PersonTrack>& 
     for (std::size_t i = 0; i < track.visible.size(); ++i)
       depth_m(track.visible.cells[i]) = track.visible.depth_m[i];
   }
+  cv::Mat1b near_somebody;
+  cv::dilate(labels, near_somebody, {});
   for (int y = 0; y < labels.rows; ++y) {
     for (int x = 0; x < labels.cols; ++x) {
+      if (near_somebody(y, x) == 0) continue;
       const Band band = band_around(labels, depth_m, x, y);
-      if (band.number == 0) continue;
       const cv::Rect pixels(x * kDepthCellPx, y * kDepthCellPx, kDepthCellPx, kDepthCellPx);
       const bool own_cell = labels(y, x) != 0;
       if (depth.type() == CV_32FC1) {

@@ -16,6 +16,7 @@ namespace cpslam::viewer {
 namespace {
 
 constexpr int kSettlingDraws = 3;
+constexpr double kLookS = 0.005;  // how often somebody looks for new snapshots; a look costs microseconds
 constexpr double kMapsPerS = 4.0;
 constexpr double kResetS = 4.0;       // for the second press
 constexpr float kColumnShare = 0.4F;  // of the window's width, for the camera's column
@@ -46,8 +47,8 @@ Viewer::Viewer(ViewerOptions options, std::shared_ptr<SnapshotBoard> board, RunC
 
 void Viewer::run(const std::function<bool()>& run_ended, const std::function<bool()>& interrupted) {
   while (!window_.close_requested() && !interrupted()) {
-    const double rest_s = 1.0 / kMaxFramesPerS - seconds_since(drawn_);
-    window_.wait_for_events(stale_draws_ > 0 ? std::max(0.001, rest_s) : 1.0 / kMaxFramesPerS);
+    const double due_s = std::clamp(1.0 / kMaxPerS - seconds_since(drawn_), 0.001, kLookS);
+    window_.wait_for_events(stale_draws_ > 0 ? due_s : (ended_ ? 1.0 / kMaxPerS : kLookS));
     // Asked before the snapshots are taken, so that the last ones are seen.
     const bool ended = run_ended();
     const bool fresh = take_snapshots() || ended != ended_;
@@ -75,7 +76,8 @@ void Viewer::draw_once() {
 }
 
 bool Viewer::is_due() const {
-  return stale_draws_ > 0 && seconds_since(drawn_) >= 1.0 / kMaxFramesPerS;
+  const double since_s = seconds_since(drawn_);
+  return (new_frame_ && since_s >= 1.0 / kMaxNewPerS) || (stale_draws_ > 0 && since_s >= 1.0 / kMaxPerS);
 }
 
 bool Viewer::take_snapshots() {
@@ -94,7 +96,7 @@ bool Viewer::take_snapshots() {
     const auto& at = frame_->result.world_from_camera.translation_m;
     if (is_tracked(frame_->result.state)) view_.set_camera({at[0], at[1], at[2]});
     if (!control_.wishes().localization) wished_localization_.reset();
-    fresh = true;
+    new_frame_ = fresh = true;
   }
   request_snapshots();
   return fresh;
@@ -222,6 +224,7 @@ ImVec2 Viewer::map_corner() const {
 }
 
 void Viewer::draw() {
+  new_frame_ = false;
   stale_draws_ = std::max(0, stale_draws_ - 1);
   const double dt_s = std::min(0.2, seconds_since(drawn_));
   drawn_ = Clock::now();

@@ -46,8 +46,10 @@ class Viewer {
   /// Draws one frame of the window, wanted or not: to measure what that costs.
   void draw_once();
 
-  /// No more than this many windows are drawn in a second.
-  static constexpr double kMaxFramesPerS = 30.0;
+  /// So many windows are drawn in a second at most: when a new frame has come; while only something moves or
+  /// ImGui settles.
+  static constexpr double kMaxNewPerS = 60.0;
+  static constexpr double kMaxPerS = 30.0;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -87,6 +89,7 @@ class Viewer {
   std::optional<Clock::time_point> reset_armed_;  // when reset was pressed once
   std::optional<bool> wished_localization_;       // until a frame says how it is
   bool ended_ = false;                            // no more frames come
+  bool new_frame_ = false;                        // is there and not drawn yet
   int stale_draws_ = 0;  // draws to come although nothing is new: ImGui settles over a few frames
   bool wants_screenshot_ = false;
 };

@@ -31,6 +31,8 @@ nlohmann::ordered_json loops_json(const Statistics& statistics) {
                               {"inliers", event.inliers},
                               {"error_m", event.error_m},
                               {"error_deg", event.error_deg}});
+    nlohmann::ordered_json& joined = json["events"].back()["joined_map"];
+    if (event.joined_map != 0) joined = event.joined_map;
   }
   return json;
 }
@@ -41,6 +43,11 @@ std::string loops_text(const Statistics& statistics) {
       line("loops       %zu closed, %zu bundle adjustments of the whole map (%zu given up)",
            loops.events.size(), loops.full_bundle_adjustments, loops.full_bundle_adjustments_given_up);
   for (const LoopEvent& event : loops.events) {
+    if (event.joined_map != 0) {
+      text += line("            at %.3f s the place of %.3f s: map %d joined to the older one; %d points",
+                   event.time_s, event.matched_time_s, event.joined_map, event.inliers);
+      continue;
+    }
     text += line("            at %.3f s the place of %.3f s: off by %.3f m, %.2f degrees; %d points",
                  event.time_s, event.matched_time_s, event.error_m, event.error_deg, event.inliers);
   }

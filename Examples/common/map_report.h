@@ -11,4 +11,8 @@ namespace cpslam::program {
 [[nodiscard]] nlohmann::ordered_json loaded_map_json(const LoadedMapStatistics& loaded);
 [[nodiscard]] std::string loaded_map_text(const LoadedMapStatistics& loaded);
 
+/// The maps of a run, likewise; no text where there was but one.
+[[nodiscard]] nlohmann::ordered_json maps_json(const Statistics& statistics);
+[[nodiscard]] std::string maps_text(const Statistics& statistics);
+
 }  // namespace cpslam::program

@@ -23,7 +23,7 @@ void prepare_output_folder(const std::string& option, const std::string& folder)
 }
 
 void remove_numbered(const std::string& folder, const std::string& stem) {
-  const std::regex name(stem + "[0-9]+\\.txt");
+  const std::regex name(stem + "[0-9]+(_map[0-9]+)?\\.txt");
   std::vector<fs::path> found;
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {

@@ -42,7 +42,8 @@ nlohmann::ordered_json settings_json(const Settings& s) {
           {"tracking",
            {{"th_depth", s.tracking.th_depth},
             {"min_initial_points", s.tracking.min_initial_points},
-            {"min_inliers", s.tracking.min_inliers}}},
+            {"min_inliers", s.tracking.min_inliers},
+            {"new_map_after_s", s.tracking.new_map_after_s}}},
           {"mapping",
            {{"local_ba_iterations", s.mapping.local_ba_iterations},
             {"queue_capacity", s.mapping.queue_capacity}}},
@@ -102,6 +103,7 @@ std::string to_json(const RunReport& report) {
   }
   json["loaded_map"] = nullptr;
   if (s.loaded_map) json["loaded_map"] = loaded_map_json(*s.loaded_map);
+  json["maps"] = maps_json(s);
   json["people"] = nullptr;
   if (has_people(report)) json["people"] = people_json(report);
   json["loops"] = nullptr;
@@ -136,6 +138,7 @@ std::string to_text(const RunReport& report) {
   if (report.interrupted) text += "            interrupted: the frames after that were not read\n";
   text += line("map         %zu keyframes (%zu made), %zu points (%zu made)", s.keyframes,
                s.keyframes_created, s.map_points, s.map_points_created);
+  text += maps_text(s);
   if (s.loaded_map) text += loaded_map_text(*s.loaded_map);
   if (const StageTimes* track = find_stage(s, "track")) {
     text += line("tracking    %.1f ms a frame (median), %.1f ms (95 %%), %.1f ms (max)", track->p50_ms,

@@ -10,6 +10,7 @@
 #include "common/console_log.h"
 #include "common/output_folder.h"
 #include "common/run_program.h"
+#include "common/trajectory_files.h"
 #include "cpslam/error.h"
 #include "io/atomic_file.h"
 #include "io/person_boxes.h"
@@ -86,14 +87,15 @@ void SlamSession::fulfil(const MapWishes& wishes) {
 }
 
 bool SlamSession::save_dropped_maps() const {
-  const fs::path dir = options_.output;
+  const std::string& dir = options_.output;
   bool saved = true;
   std::size_t number = 0;
   for (const DroppedMap& map : system_->dropped_maps()) {
-    const std::string name = std::to_string(++number) + ".txt";
+    const std::string name = std::to_string(++number);
     const auto write = [&] {
-      write_trajectory((dir / (kDroppedFrames + name)).string(), map.trajectory);
-      write_trajectory((dir / (kDroppedKeyFrames + name)).string(), map.keyframe_trajectory);
+      const int main = map_with_most(map.trajectory);
+      write_by_map(dir, kDroppedFrames + name, map.trajectory, main);
+      write_by_map(dir, kDroppedKeyFrames + name, map.keyframe_trajectory, main);
     };
     saved = attempt(write) && saved;
   }
@@ -101,11 +103,12 @@ bool SlamSession::save_dropped_maps() const {
 }
 
 bool SlamSession::save_so_far() {
-  const fs::path dir = options_.output;
-  const bool frames =
-      attempt([&] { write_trajectory((dir / "CameraTrajectory.txt").string(), system_->trajectory()); });
-  const bool keyframes = attempt(
-      [&] { write_trajectory((dir / "KeyFrameTrajectory.txt").string(), system_->keyframe_trajectory()); });
+  const std::string& dir = options_.output;
+  const Trajectory trajectory = system_->trajectory();
+  const int map_number = map_with_most(trajectory);
+  const bool frames = attempt([&] { write_by_map(dir, "CameraTrajectory", trajectory, map_number); });
+  const bool keyframes =
+      attempt([&] { write_by_map(dir, "KeyFrameTrajectory", system_->keyframe_trajectory(), map_number); });
   const bool dropped = save_dropped_maps();
   const std::string& map = options_.maps.save_map;
   const bool mapped = map.empty() || attempt([&] { system_->save_map(map); });
@@ -142,7 +145,10 @@ bool SlamSession::save(const std::string& ground_truth, RunReport& report) {
   }
   if (fs::exists(ground_truth)) {
     const auto compare = [&] {
-      report.ate = absolute_trajectory_error(read_trajectory(ground_truth), system_->trajectory());
+      Trajectory trajectory = system_->trajectory();
+      const int map_number = map_with_most(trajectory);
+      std::erase_if(trajectory, [&](const StampedPose& pose) { return pose.map != map_number; });
+      report.ate = absolute_trajectory_error(read_trajectory(ground_truth), trajectory);
     };
     saved = attempt(compare) && saved;
   }

@@ -37,6 +37,9 @@ struct TrackingSettings {
   double th_depth = 40.0;
   int min_initial_points = 100;  ///< keypoints with depth that the first frame of a map needs
   int min_inliers = 30;          ///< a frame counts as tracked from this many inliers on
+  /// A lost camera that has looked at a place it does not know for so long begins another map there; 0:
+  /// never, and never without a vocabulary or loop closing, which could connect the two.
+  double new_map_after_s = 3.0;
 };
 
 struct MappingSettings {

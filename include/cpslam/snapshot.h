@@ -40,14 +40,15 @@ struct KeyFrameEdge {
   std::uint32_t to = 0;
 };
 
-/// What a viewer shows of the map.
+/// What a viewer shows of the map that the camera is in.
 struct MapSnapshot {
+  int map = 1;  ///< its number (StampedPose::map)
   std::vector<WorldPoint> points;
   Trajectory keyframes;                    ///< by age
   std::vector<KeyFrameEdge> covisibility;  ///< the strong ones: kStrongEdge points shared
   std::vector<KeyFrameEdge> spanning_tree;
   std::vector<KeyFrameEdge> loops;
-  Trajectory trajectory;          ///< System::trajectory() at that time
+  Trajectory trajectory;          ///< of System::trajectory() at that time what is in this map
   std::uint64_t corrections = 0;  ///< how often the whole map has been bent
 
   static constexpr int kStrongEdge = 100;

@@ -80,15 +80,16 @@ class System {
   /// RunError that names the file and the cause, also when there is no map yet.
   void save_map(const std::string& path) const;
 
-  /// Pose of every tracked frame, with all later corrections of its reference keyframe.
+  /// Pose of every tracked frame, with all later corrections of its reference keyframe; those in different
+  /// maps (StampedPose::map) say nothing about each other.
   [[nodiscard]] Trajectory trajectory() const;
   /// Poses of the keyframes alive that were made here, not of those of a loaded map, by time.
   [[nodiscard]] Trajectory keyframe_trajectory() const;
   [[nodiscard]] Statistics statistics() const;
 
   /// What the keyframes saw of the room, without its people, at the keyframes' present poses: after
-  /// shutdown(), the final ones. Takes seconds. Throws InputError without settings.dense.enabled or for
-  /// options out of range.
+  /// shutdown(), the final ones. Of several maps, that with most frames. Takes seconds. Throws InputError
+  /// without settings.dense.enabled or for options out of range.
   [[nodiscard]] DenseMap dense_map(const DenseMapOptions& options = {}) const;
 
  private:

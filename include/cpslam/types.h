@@ -27,11 +27,15 @@ struct PersonBox {
   double confidence = 1.0;  ///< [0, 1]
 };
 
+/// Where tracking was lost in a new place another map is begun, in a world of its own, until a loop connects
+/// the two. Maps are numbered from 1 in the order they were begun; a number is not used again.
 struct StampedPose {
   double time_s = 0.0;
   Pose world_from_camera;
+  int map = 1;  ///< in whose world the pose is
 };
 
+/// May be of several maps: split_by_map() (cpslam/trajectory.h).
 using Trajectory = std::vector<StampedPose>;
 
 enum class TrackingState {
@@ -56,6 +60,7 @@ struct TrackResult {
   TrackingState state = TrackingState::kNotInitialized;
   double time_s = 0.0;
   Pose world_from_camera;  ///< valid when kTracked, kWeak or kPredicted
+  int map = 0;             ///< in whose world the pose is, at this time (see StampedPose); 0 without a pose
   /// When tracked: from the keypoints' and depths' noise against the map as it stands; how far the map itself
   /// is off is not in it. Zero for the frame that starts the map: it is where the world begins. Empty when
   /// bridged.
@@ -98,8 +103,17 @@ struct LoopEvent {
   double time_s = 0.0;          ///< of the keyframe that recognised it
   double matched_time_s = 0.0;  ///< of the keyframe that had been there before
   int inliers = 0;              ///< points of the earlier visit that the later one sees again
-  double error_m = 0.0;         ///< how far the map had the one off the other
+  double error_m = 0.0;         ///< how far the map had the one off the other; 0 between two maps
   double error_deg = 0.0;
+  int joined_map =
+      0;  ///< number of the map that this loop made part of the older one; 0: it was within a map
+};
+
+/// A map at present.
+struct MapCounts {
+  int map = 1;                ///< its number
+  std::size_t frames = 0;     ///< tracked in it in this run
+  std::size_t keyframes = 0;  ///< alive
 };
 
 /// What loop closing did.
@@ -111,6 +125,7 @@ struct LoopStatistics {
 
 /// A map that was loaded, and how the camera was found in it.
 struct LoadedMapStatistics {
+  std::size_t maps = 0;                 ///< that nothing connected yet, in the file: the maps 1 to so many
   std::size_t keyframes = 0;            ///< the map came with
   std::size_t points = 0;               ///< the map came with
   bool other_vocabulary = false;        ///< it was made with other words: they were found anew
@@ -141,6 +156,8 @@ struct Statistics {
   PeopleStatistics people;
   LoopStatistics loops;
   std::optional<LoadedMapStatistics> loaded_map;
+  std::vector<MapCounts> maps;     ///< those with most frames first
+  std::size_t maps_started = 0;    ///< in this run; how many a loop joined to others, loops.events tells
   std::vector<StageTimes> stages;  ///< "detect" is the detector's
 };
 

@@ -43,10 +43,11 @@ std::size_t DenseViews::most_dispensable(const Map& map) const {
   return nearest;
 }
 
-std::vector<PlacedView> DenseViews::place(const Map& map) const {
+std::vector<PlacedView> DenseViews::place(const Map& map, int session) const {
   const std::shared_lock lock(map.mutex());
   std::vector<PlacedView> placed;
   for (const Entry& entry : entries_) {
+    if (map.session_of(entry.keyframe) != session) continue;
     if (const auto cam_from_world = map.cam_from_world(entry.keyframe))
       placed.push_back({entry.view, (entry.view_from_keyframe * *cam_from_world).inverse()});
   }

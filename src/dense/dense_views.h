@@ -28,8 +28,8 @@ class DenseViews {
   /// view_from_keyframe: for a depth image of another instant than the keyframe's colour.
   void add(KeyFrameId keyframe, const DenseFrame& frame, const SE3& view_from_keyframe, const Map& map);
 
-  /// Takes a shared lock of the map. By the order in which they were added.
-  [[nodiscard]] std::vector<PlacedView> place(const Map& map) const;
+  /// Those of a session of the map, by the order in which they were added. Takes a shared lock of the map.
+  [[nodiscard]] std::vector<PlacedView> place(const Map& map, int session = 1) const;
 
   [[nodiscard]] const std::shared_ptr<const DenseCamera>& camera() const { return camera_; }
   [[nodiscard]] std::size_t size() const { return entries_.size(); }

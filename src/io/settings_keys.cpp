@@ -39,6 +39,7 @@ constexpr std::array kKeys = std::to_array<SettingsKey>({
     {"Tracking.minInitialPoints", [](Settings& s) -> M { return &s.tracking.min_initial_points; }, 10,
      100000},
     {"Tracking.minInliers", [](Settings& s) -> M { return &s.tracking.min_inliers; }, 6, 10000},
+    {"Tracking.newMapAfter", [](Settings& s) -> M { return &s.tracking.new_map_after_s; }, 0.0, 3600.0},
     {"Mapping.localBaIterations", [](Settings& s) -> M { return &s.mapping.local_ba_iterations; }, 0, 1000},
     {"Mapping.queueCapacity", [](Settings& s) -> M { return &s.mapping.queue_capacity; }, 1, 1000},
     {"LoopClosing.minInliers", [](Settings& s) -> M { return &s.loops.min_inliers; }, 10, 10000},

@@ -36,10 +36,6 @@ void Map::add_edges(KeyFrameId id, const std::map<KeyFrameId, int>& shared) {
   }
 }
 
-void Map::derive_covisibility() {
-  for (const KeyFrameId id : keyframes_by_sequence()) add_edges(id, count_shared(id));
-}
-
 void Map::update_covisibility(KeyFrameId id) {
   KeyFrame* keyframe = keyframes_.find(id);
   if (keyframe == nullptr) return;
@@ -50,8 +46,7 @@ void Map::update_covisibility(KeyFrameId id) {
   }
   keyframe->covisible.clear();
   add_edges(id, shared);
-  const bool is_root = keyframe->sequence == 0;
-  if (is_root || keyframe->parent.valid()) return;
+  if (is_root(id) || keyframe->parent.valid()) return;
   // One that shared nothing when it came may have descendants by now: none of them can be its parent.
   std::erase_if(shared, [&](const auto& other) { return descends_from(other.first, id); });
   if (const auto parent = std::max_element(shared.begin(), shared.end(), fewer); parent != shared.end()) {

@@ -19,6 +19,7 @@ struct Covisible {
 /// A frame that stays in the map. Plain data: Map keeps the links between keyframes and points consistent.
 struct KeyFrame {
   std::uint64_t sequence = 0;  ///< order of creation; never used again, unlike slots
+  int session = 1;             ///< in whose world the pose is; see Map
   double time_s = 0.0;
   SE3 cam_from_world;
   std::shared_ptr<const FrameFeatures> features;

@@ -8,7 +8,11 @@ KeyFrameId Map::add_keyframe(KeyFrame keyframe) {
   keyframe.sequence = keyframes_created_++;
   keyframe.points.assign(static_cast<std::size_t>(keyframe.features->size()), MapPointId{});
   ++version_;
-  return keyframes_.insert(std::move(keyframe));
+  const int session = keyframe.session;
+  const KeyFrameId id = keyframes_.insert(std::move(keyframe));
+  roots_.try_emplace(session, id);
+  sessions_created_ = std::max(sessions_created_, session);
+  return id;
 }
 
 void Map::set_pose(KeyFrameId id, const SE3& cam_from_world) {

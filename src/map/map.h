@@ -16,31 +16,38 @@ namespace cpslam {
 
 /// Owns all keyframes and map points; everything else refers to them by id.
 ///
+/// Its sessions are maps that nothing connects, each in a world of its own, numbered from 1: a point and all
+/// keyframes that see it, a keyframe and its covisible ones, its parent and its loops are of one session. The
+/// first keyframe of a session is its root, the oldest it ever has, and holds its gauge.
+///
 /// Locking: one mutex for everything in here. Const members need at least a shared lock of mutex(), the
 /// others a unique one, held by the caller, so that several calls make one consistent step. It is the only
 /// lock of the core that is held while another module runs, so there is no lock order to keep; do not call
 /// back into a Worker while holding it, nor ask for it twice.
 class Map {
  public:
-  explicit Map(const ScalePyramid& pyramid) : pyramid_(pyramid) {}
+  /// sessions_created: numbers that are taken.
+  explicit Map(const ScalePyramid& pyramid, int sessions_created = 0)
+      : pyramid_(pyramid), sessions_created_(sessions_created) {}
   Map(const Map&) = delete;
   Map& operator=(const Map&) = delete;
 
   [[nodiscard]] FairSharedMutex& mutex() const { return mutex_; }
 
-  /// Fills a map that is still empty with parts that check() has passed; returns the ids of the keyframes by
-  /// their positions. What a map knows beyond its parts is worked out anew.
+  /// Adds parts that check() has passed as a session; returns the ids of the keyframes by their positions.
+  /// What a map knows beyond its parts is worked out anew.
   std::vector<KeyFrameId> assemble(const MapParts& parts);
 
   // Keyframes
   // -------------------------------------------------------------------------------------------------
-  /// Adds a keyframe without points or links; sets its sequence and sizes its points.
+  /// Adds a keyframe without points or links; sets its sequence and sizes its points. The first of a session
+  /// that is not there yet begins it.
   KeyFrameId add_keyframe(KeyFrame keyframe);
   [[nodiscard]] const KeyFrame* keyframe(KeyFrameId id) const { return keyframes_.find(id); }
   void set_pose(KeyFrameId id, const SE3& cam_from_world);
   /// Frees a keyframe: its observations go (and the points that lose too many), its children find new
-  /// parents, and a tombstone keeps its pose relative to its parent. The root and the ends of loop edges
-  /// stay: returns false for them.
+  /// parents, and a tombstone keeps its pose relative to its parent. Roots and the ends of loop edges stay:
+  /// returns false for them.
   bool erase_keyframe(KeyFrameId id);
   /// Pose of a live or culled keyframe; a culled one's follows from the pose of its nearest living ancestor.
   [[nodiscard]] std::optional<SE3> cam_from_world(KeyFrameId id) const;
@@ -87,12 +94,26 @@ class Map {
   /// Points of the keyframe that at least min_observations keyframes see.
   [[nodiscard]] int count_points(KeyFrameId id, std::size_t min_observations) const;
 
+  // Sessions
+  // ----------------------------------------------------------------------------------------------------
+  /// Numbers of those that are there, the oldest first.
+  [[nodiscard]] std::vector<int> sessions() const;
+  /// Of a live or culled keyframe; 0 for one that never was.
+  [[nodiscard]] int session_of(KeyFrameId id) const;
+  [[nodiscard]] bool is_root(KeyFrameId id) const;
+  /// Makes one session of two that a loop connects. The one with the younger root moves into the world of the
+  /// other, takes its number, and hangs on it by the loop: its end becomes a child of the other end. Returns
+  /// the number that is no more; 0, and does nothing, when either end is gone or both are of one session.
+  int join_sessions(KeyFrameId a, KeyFrameId b, const SE3& a_from_b);
+
   // Counts
   // ------------------------------------------------------------------------------------------------------
   [[nodiscard]] std::size_t n_keyframes() const { return keyframes_.size(); }
   [[nodiscard]] std::size_t n_points() const { return points_.size(); }
   [[nodiscard]] std::uint64_t keyframes_created() const { return keyframes_created_; }
   [[nodiscard]] std::uint64_t points_created() const { return points_created_; }
+  /// The highest number of a session so far.
+  [[nodiscard]] int sessions_created() const { return sessions_created_; }
   /// Grows with every change of structure or geometry; tells a reader when its copy is stale.
   [[nodiscard]] std::uint64_t version() const { return version_; }
   /// How often the map as a whole has been bent (a loop closed): a pose found before fits no more.
@@ -106,8 +127,10 @@ class Map {
   };
 
   void assemble_point(const MapParts::PointPart& part, const std::vector<KeyFrameId>& ids);
-  /// Counts the covisibility edges of all keyframes.
-  void derive_covisibility();
+  /// Moves everything of a session, new_from_old, and gives it to another one.
+  void move_session(int session, int to, const SE3& new_from_old);
+  /// Turns the way from the keyframe up to its root round, so that it is the root of its tree.
+  void make_root(KeyFrameId id);
   /// How many points the keyframe shares with each other one.
   [[nodiscard]] std::map<KeyFrameId, int> count_shared(KeyFrameId id) const;
   /// Both ways, to each that shares enough points and to the one that shares most.
@@ -122,6 +145,8 @@ class Map {
   SlotMap<KeyFrame, KeyFrameTag> keyframes_;
   SlotMap<MapPoint, MapPointTag> points_;
   std::map<KeyFrameId, Tombstone> tombstones_;
+  std::map<int, KeyFrameId> roots_;  // by session
+  int sessions_created_ = 0;
   std::uint64_t keyframes_created_ = 0;
   std::uint64_t points_created_ = 0;
   std::uint64_t version_ = 0;

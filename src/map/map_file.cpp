@@ -93,8 +93,10 @@ MapFile read_sessions(ByteReader& reader, const CameraSettings& camera, const Or
   const std::size_t n_sessions = reader.count(kMinSessionSize);
   for (std::size_t i = 0; i < n_sessions; ++i) {
     map.sessions.push_back(read_session(reader, pinhole));
+    // One by one, so that of many none takes memory once one is wrong.
     check(map.sessions.back(), orb.n_levels);
   }
+  check_sequences(map.sessions);
   if (!reader.rest().empty()) throw InputError("it goes on after its end");
   return map;
 }
@@ -131,6 +133,7 @@ MapFile map_from_bytes(std::string_view bytes, const CameraSettings& camera, con
 void save_map_file(const std::string& path, const MapFile& map) {
   try {
     for (const MapParts& session : map.sessions) check(session, map.orb.n_levels);
+    check_sequences(map.sessions);
   } catch (const InputError& error) {
     throw RunError("'" + path + "' was not written, the map is not sound: " + error.what());
   }

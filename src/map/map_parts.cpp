@@ -8,6 +8,12 @@
 namespace cpslam {
 namespace {
 
+std::vector<KeyFrameId> keyframes_of(const Map& map, int session) {
+  std::vector<KeyFrameId> ids = map.keyframes_by_sequence();
+  std::erase_if(ids, [&](KeyFrameId id) { return map.keyframe(id)->session != session; });
+  return ids;
+}
+
 /// Positions of the keyframes in their order, by slot.
 std::vector<std::uint32_t> positions_by_slot(const std::vector<KeyFrameId>& order) {
   std::vector<std::uint32_t> positions;
@@ -36,8 +42,8 @@ MapParts::PointPart take_point(const MapPoint& point, const std::vector<std::uin
 
 }  // namespace
 
-MapParts take_apart(const Map& map) {
-  const std::vector<KeyFrameId> order = map.keyframes_by_sequence();
+MapParts take_apart(const Map& map, int session) {
+  const std::vector<KeyFrameId> order = keyframes_of(map, session);
   const std::vector<std::uint32_t> position_of = positions_by_slot(order);
   MapParts parts;
   parts.keyframes.reserve(order.size());
@@ -54,18 +60,23 @@ MapParts take_apart(const Map& map) {
       }
     }
   }
-  parts.points.reserve(map.n_points());
-  for (const MapPointId id : map.point_ids()) parts.points.push_back(take_point(*map.point(id), position_of));
+  for (const MapPointId id : map.point_ids()) {
+    const MapPoint& point = *map.point(id);
+    if (map.keyframe(point.reference)->session == session)
+      parts.points.push_back(take_point(point, position_of));
+  }
   parts.keyframes_created = map.keyframes_created();
   parts.points_created = map.points_created();
   return parts;
 }
 
 std::vector<KeyFrameId> Map::assemble(const MapParts& parts) {
+  const int session = ++sessions_created_;
   std::vector<KeyFrameId> ids;
   ids.reserve(parts.keyframes.size());
   for (const MapParts::KeyFramePart& part : parts.keyframes) {
     KeyFrame keyframe;
+    keyframe.session = session;
     keyframe.sequence = part.sequence;
     keyframe.time_s = part.time_s;
     keyframe.cam_from_world = part.cam_from_world;
@@ -73,6 +84,7 @@ std::vector<KeyFrameId> Map::assemble(const MapParts& parts) {
     keyframe.points.assign(static_cast<std::size_t>(part.features->size()), MapPointId{});
     ids.push_back(keyframes_.insert(std::move(keyframe)));
   }
+  roots_.emplace(session, ids.front());
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (parts.keyframes[i].parent == MapParts::kNone) continue;
     const KeyFrameId parent = ids[parts.keyframes[i].parent];
@@ -81,9 +93,9 @@ std::vector<KeyFrameId> Map::assemble(const MapParts& parts) {
   }
   for (const auto& [a, b] : parts.loops) add_loop_edge(ids[a], ids[b]);
   for (const MapParts::PointPart& part : parts.points) assemble_point(part, ids);
-  derive_covisibility();
-  keyframes_created_ = parts.keyframes_created;
-  points_created_ = parts.points_created;
+  for (const KeyFrameId id : ids) add_edges(id, count_shared(id));
+  keyframes_created_ = std::max(keyframes_created_, parts.keyframes_created);
+  points_created_ = std::max(points_created_, parts.points_created);
   ++version_;
   return ids;
 }

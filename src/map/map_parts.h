@@ -15,8 +15,9 @@ namespace cpslam {
 
 class Map;
 
-/// A map as plain data that refers to itself by position instead of by id, without what follows from the
-/// rest: covisibility, children, what keyframes see, normals, distance ranges and descriptors of points.
+/// A session of a map as plain data that refers to itself by position instead of by id, without what follows
+/// from the rest: covisibility, children, what keyframes see, normals, distance ranges and descriptors of
+/// points.
 struct MapParts {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
@@ -49,17 +50,22 @@ struct MapParts {
   std::vector<KeyFramePart> keyframes;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> loops;  ///< each once, the older keyframe first
   std::vector<PointPart> points;
-  std::vector<FramePart> frames;  ///< in the order they came
-  std::uint64_t keyframes_created = 0;
-  std::uint64_t points_created = 0;
+  std::vector<FramePart> frames;        ///< in the order they came
+  std::uint64_t keyframes_created = 0;  ///< in all sessions of the map
+  std::uint64_t points_created = 0;     ///< likewise
 };
 
-/// The parts of a map, without frames, which a Map does not know. The caller holds a shared lock of the map.
-[[nodiscard]] MapParts take_apart(const Map& map);
+/// The parts of a session, without frames, which a Map does not know. The caller holds a shared lock of the
+/// map.
+[[nodiscard]] MapParts take_apart(const Map& map, int session = 1);
 
 /// Throws InputError that says which part is none: a pose that is not rigid, a number that is not finite, a
 /// reference to nothing, a circle in the spanning tree, a keypoint that sees two points. What passes is safe
 /// to work with, whoever wrote it. n_levels: of the pyramid.
 void check(const MapParts& parts, int n_levels);
+
+/// Throws InputError when sessions that have passed check() do not make one map: sequences are given out once
+/// in a map, and the session whose first keyframe is older comes first.
+void check_sequences(const std::vector<MapParts>& sessions);
 
 }  // namespace cpslam

@@ -1,6 +1,7 @@
 // What a map from a file must be before anything works with it.
 #include <Eigen/LU>
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "cpslam/error.h"
@@ -134,6 +135,18 @@ void check(const MapParts& parts, int n_levels) {
   check_loops(parts);
   check_points(parts);
   check_frames(parts);
+}
+
+void check_sequences(const std::vector<MapParts>& sessions) {
+  std::set<std::uint64_t> taken;
+  std::uint64_t oldest = 0;
+  for (std::size_t i = 0; i < sessions.size(); ++i) {
+    const std::uint64_t first = sessions[i].keyframes.front().sequence;
+    require(first >= oldest, "session", i, "comes before the one in front of it");
+    oldest = first;
+    for (const MapParts::KeyFramePart& keyframe : sessions[i].keyframes)
+      require(taken.insert(keyframe.sequence).second, "session", i, "has a keyframe that another one has");
+  }
 }
 
 }  // namespace cpslam

@@ -13,15 +13,16 @@ constexpr double kSigmaRad = 0.005;
 
 class Builder {
  public:
-  explicit Builder(const Map& map) : map_(map) {
+  Builder(const Map& map, int session) : map_(map) {
     information_.setZero();
     information_.diagonal().head<3>().setConstant(1.0 / (kSigmaM * kSigmaM));
     information_.diagonal().tail<3>().setConstant(1.0 / (kSigmaRad * kSigmaRad));
     for (const KeyFrameId id : map.keyframes_by_sequence()) {
+      if (map.keyframe(id)->session != session) continue;
       index_.emplace(id, static_cast<int>(result_.keyframes.size()));
       result_.keyframes.push_back(id);
       result_.graph.cam_from_world.push_back(map.keyframe(id)->cam_from_world);
-      result_.graph.pose_fixed.push_back(result_.keyframes.size() == 1 ? 1 : 0);
+      result_.graph.pose_fixed.push_back(map.is_root(id) ? 1 : 0);
     }
   }
 
@@ -68,7 +69,7 @@ class Builder {
 }  // namespace
 
 EssentialGraph essential_graph(const Map& map, const LoopEdge& loop) {
-  return Builder(map).build(loop);
+  return Builder(map, map.keyframe(loop.current)->session).build(loop);
 }
 
 }  // namespace cpslam

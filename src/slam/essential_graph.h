@@ -20,9 +20,9 @@ struct EssentialGraph {
   std::vector<KeyFrameId> keyframes;  ///< parallel to graph.cam_from_world
 };
 
-/// All keyframes with the edges of the spanning tree, earlier loops and covisibility of at least 100 points,
-/// as the map's poses say they lie to each other, and the new loop as measured. The first keyframe is fixed.
-/// Both ends of the loop must exist. The caller holds a shared lock of the map.
+/// All keyframes of a session with the edges of the spanning tree, earlier loops and covisibility of at least
+/// 100 points, as the map's poses say they lie to each other, and the new loop as measured. The root is
+/// fixed. Both ends of the loop must exist and be of the session. The caller holds a shared lock of the map.
 [[nodiscard]] EssentialGraph essential_graph(const Map& map, const LoopEdge& loop);
 
 }  // namespace cpslam

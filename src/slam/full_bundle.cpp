@@ -16,7 +16,7 @@ BundleSnapshot copy_map(const Rig& rig, const Map& map) {
   const std::shared_lock lock(map.mutex());
   BundleSnapshotBuilder builder(rig, map, kMinDisparitySigmaInMapPx);
   for (const KeyFrameId id : map.keyframes_by_sequence()) {
-    builder.add_keyframe(id, builder.snapshot().keyframes.empty());
+    builder.add_keyframe(id, map.is_root(id));
   }
   builder.add_points();
   builder.add_observations();

@@ -15,9 +15,9 @@ struct FullBundle {
   BundleResult result;
 };
 
-/// Bundle adjustment of the whole map but for its first keyframe, which holds the gauge. Works on a snapshot:
-/// the map is only locked, shared, to copy it, and may grow and change meanwhile. Nothing when the flag was
-/// raised before the end, or with fewer than two keyframes.
+/// Bundle adjustment of the whole map but for the roots of its sessions, which hold the gauge. Works on a
+/// snapshot: the map is only locked, shared, to copy it, and may grow and change meanwhile. Nothing when the
+/// flag was raised before the end, or with fewer than two keyframes.
 [[nodiscard]] std::optional<FullBundle> adjust_full_bundle(const Rig& rig, const Map& map,
                                                            const std::atomic<bool>& abort);
 

@@ -27,6 +27,12 @@ std::vector<int> keypoints_for_depth_points(const Rig& rig, const FrameFeatures&
   return chosen;
 }
 
+/// That of the reference keyframe; without one a new one.
+int session_of(const Map& map, const Placement& placement) {
+  const int session = map.session_of(placement.reference);
+  return session != 0 ? session : map.sessions_created() + 1;
+}
+
 }  // namespace
 
 KeyFrameId insert_keyframe(const Rig& rig, Map& map, const Placement& placement, Frame& frame) {
@@ -39,6 +45,7 @@ KeyFrameId insert_keyframe(const Rig& rig, Map& map, const Placement& placement,
   }
   const SE3 world_from_cam = frame.cam_from_world.inverse();
   KeyFrame keyframe;
+  keyframe.session = session_of(map, placement);
   keyframe.time_s = frame.time_s;
   keyframe.cam_from_world = frame.cam_from_world;
   keyframe.features = frame.features;

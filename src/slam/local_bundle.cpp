@@ -37,7 +37,7 @@ void hold_gauge(const Map& map, BundleSnapshotBuilder& builder) {
   const auto oldest = std::min_element(
       keyframes.begin(), keyframes.end(),
       [&map](KeyFrameId a, KeyFrameId b) { return map.keyframe(a)->sequence < map.keyframe(b)->sequence; });
-  if (map.keyframe(*oldest)->sequence == 0 || std::find(fixed.begin(), fixed.end(), 1) == fixed.end()) {
+  if (map.is_root(*oldest) || std::find(fixed.begin(), fixed.end(), 1) == fixed.end()) {
     builder.fix(static_cast<std::size_t>(oldest - keyframes.begin()));
   }
 }

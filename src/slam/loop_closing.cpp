@@ -80,16 +80,26 @@ bool LoopClosing::close(const VerifiedLoop& loop, const std::atomic<bool>& abort
     event.matched_time_s = matched->time_s;
   }
   consistency_.reset();
-  const std::optional<LoopError> error = close_loop(rig_, map_, loop, timer_, abort);
-  if (!error) return false;
+  const std::optional<ClosedLoop> closed = close_loop(rig_, map_, loop, timer_, abort);
+  if (!closed) return false;
   event.inliers = loop.inliers;
-  event.error_m = error->distance_m;
-  event.error_deg = error->angle_rad * 180.0 / std::numbers::pi;
-  log_.info("loop closed: the place of " + std::to_string(event.matched_time_s) + " s again; the map was " +
-            std::to_string(event.error_m) + " m off");
+  event.error_m = closed->distance_m;
+  event.error_deg = closed->angle_rad * 180.0 / std::numbers::pi;
+  event.joined_map = closed->joined_session;
+  tell(event);
   const std::lock_guard lock(mutex_);
   statistics_.events.push_back(event);
   return true;
+}
+
+void LoopClosing::tell(const LoopEvent& event) const {
+  const std::string place = "the place of " + std::to_string(event.matched_time_s) + " s again; ";
+  if (event.joined_map != 0) {
+    log_.info("loop closed: " + place + "map " + std::to_string(event.joined_map) +
+              " is part of the older one now");
+  } else {
+    log_.info("loop closed: " + place + "the map was " + std::to_string(event.error_m) + " m off");
+  }
 }
 
 LoopStatistics LoopClosing::statistics() const {

@@ -42,6 +42,7 @@ class LoopClosing {
   [[nodiscard]] LoopStatistics statistics() const;
 
  private:
+  void tell(const LoopEvent& event) const;
   [[nodiscard]] std::vector<KeyFrameId> alike_places(KeyFrameId keyframe,
                                                      const std::vector<KeyFrameId>& connected,
                                                      const ImageWords& words) const;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kNeighbours = 10;  // of either end take part in the fusion
 
-std::optional<EssentialGraph> copy_graph(const Map& map, const LoopEdge& loop, LoopError& error) {
+std::optional<EssentialGraph> copy_graph(const Map& map, const LoopEdge& loop, ClosedLoop& error) {
   const std::shared_lock lock(map.mutex());
   const KeyFrame* current = map.keyframe(loop.current);
   const KeyFrame* matched = map.keyframe(loop.matched);
@@ -21,6 +21,23 @@ std::optional<EssentialGraph> copy_graph(const Map& map, const LoopEdge& loop, L
   error.distance_m = (loop.current_from_matched.inverse().translation - present.inverse().translation).norm();
   error.angle_rad = rotation_angle(loop.current_from_matched.rotation * present.rotation.transpose());
   return essential_graph(map, loop);
+}
+
+bool connects_sessions(const Map& map, const LoopEdge& loop) {
+  const std::shared_lock lock(map.mutex());
+  const KeyFrame* current = map.keyframe(loop.current);
+  const KeyFrame* matched = map.keyframe(loop.matched);
+  return current != nullptr && matched != nullptr && current->session != matched->session;
+}
+
+ClosedLoop join(Map& map, const LoopEdge& loop, StageTimer& timer) {
+  const auto scope = timer.time("loop: moving the map");
+  const std::unique_lock lock(map.mutex());
+  ClosedLoop closed;
+  closed.joined_session = map.join_sessions(loop.current, loop.matched, loop.current_from_matched);
+  map.add_loop_edge(loop.current, loop.matched);
+  map.count_correction();
+  return closed;
 }
 
 void move_map(Map& map, const EssentialGraph& graph, const LoopEdge& loop) {
@@ -72,28 +89,35 @@ void fuse_sides(const Rig& rig, Map& map, const VerifiedLoop& loop) {
   }
 }
 
-}  // namespace
-
-std::optional<LoopError> close_loop(const Rig& rig, Map& map, const VerifiedLoop& loop, StageTimer& timer,
-                                    const std::atomic<bool>& abort) {
-  LoopError error;
+std::optional<ClosedLoop> bend(Map& map, const LoopEdge& loop, StageTimer& timer,
+                               const std::atomic<bool>& abort) {
+  ClosedLoop closed;
   std::optional<EssentialGraph> graph;
   {
     const auto scope = timer.time("loop: pose graph");
-    graph = copy_graph(map, loop.edge, error);
+    graph = copy_graph(map, loop, closed);
     if (!graph) return std::nullopt;
     PoseGraphOptions options;
     options.abort = &abort;
     optimize_pose_graph(graph->graph, options);
   }
   if (abort) return std::nullopt;
-  {
-    const auto scope = timer.time("loop: moving the map");
-    move_map(map, *graph, loop.edge);
-  }
+  const auto scope = timer.time("loop: moving the map");
+  move_map(map, *graph, loop);
+  return closed;
+}
+
+}  // namespace
+
+std::optional<ClosedLoop> close_loop(const Rig& rig, Map& map, const VerifiedLoop& loop, StageTimer& timer,
+                                     const std::atomic<bool>& abort) {
+  if (abort) return std::nullopt;
+  const std::optional<ClosedLoop> closed =
+      connects_sessions(map, loop.edge) ? join(map, loop.edge, timer) : bend(map, loop.edge, timer, abort);
+  if (!closed) return std::nullopt;
   const auto scope = timer.time("loop: fusion");
   fuse_sides(rig, map, loop);
-  return error;
+  return closed;
 }
 
 }  // namespace cpslam

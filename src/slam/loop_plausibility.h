@@ -14,8 +14,8 @@ namespace cpslam {
 
 /// Whether the loop's ends lie so near to where the map has them that drift along the chain between them can
 /// account for the rest. Where two places look the same (two identical desks in a room), nothing else tells
-/// that they are not. Keyframes that are not connected know nothing of each other: anything is plausible. The
-/// caller holds a shared lock of the map; both ends exist.
+/// that they are not. Keyframes that are not connected know nothing of each other: anything is plausible
+/// (between sessions, see compare_sessions()). The caller holds a shared lock of the map; both ends exist.
 [[nodiscard]] bool is_plausible(const Map& map, const LoopEdge& loop);
 
 }  // namespace cpslam

@@ -2,10 +2,12 @@
 
 #include <shared_mutex>
 
+#include "slam/keyframe_frame.h"
 #include "slam/local_map.h"
 #include "slam/loop_plausibility.h"
 #include "slam/pose_refinement.h"
 #include "slam/recovery.h"
+#include "slam/session_agreement.h"
 
 namespace cpslam {
 namespace {
@@ -13,23 +15,23 @@ namespace {
 // Of the points that should be visible. Occlusion and another light cost many; another place has few.
 constexpr double kMinFoundShare = 0.25;
 
-std::optional<Frame> frame_of(const Map& map, KeyFrameId id) {
-  const std::shared_lock lock(map.mutex());
-  const KeyFrame* keyframe = map.keyframe(id);
-  if (keyframe == nullptr) return std::nullopt;
-  Frame frame;
-  frame.time_s = keyframe->time_s;
-  frame.features = keyframe->features;
-  frame.cam_from_world = keyframe->cam_from_world;
-  frame.matches.resize(keyframe->points.size());
-  return frame;
+/// Whether what else is known of the two ends lets the loop be.
+bool is_credible(const Rig& rig, const Map& map, const LoopEdge& loop) {
+  {
+    const std::shared_lock lock(map.mutex());
+    const KeyFrame* current = map.keyframe(loop.current);
+    const KeyFrame* matched = map.keyframe(loop.matched);
+    if (current == nullptr || matched == nullptr) return false;
+    if (current->session == matched->session) return is_plausible(map, loop);
+  }
+  return is_enough(compare_sessions(rig, map, loop));
 }
 
 }  // namespace
 
 std::optional<VerifiedLoop> verify_loop(const Rig& rig, const Map& map, KeyFrameId current,
                                         KeyFrameId candidate, const IndexPair& indices, Random& random) {
-  std::optional<Frame> frame = frame_of(map, current);
+  std::optional<Frame> frame = keyframe_as_frame(map, current);
   if (!frame || recover_from_keyframe(rig, map, candidate, random, *frame, indices) == 0) return std::nullopt;
   LocalMap surroundings;
   surroundings.centre_on(map, candidate);
@@ -45,9 +47,7 @@ std::optional<VerifiedLoop> verify_loop(const Rig& rig, const Map& map, KeyFrame
   loop.edge = {current, candidate, frame->cam_from_world * surroundings.reference_from_world().inverse()};
   loop.matches = std::move(frame->matches);
   loop.inliers = pose.map_points;
-  const std::shared_lock lock(map.mutex());
-  if (map.keyframe(current) == nullptr || map.keyframe(candidate) == nullptr) return std::nullopt;
-  if (!is_plausible(map, loop.edge)) return std::nullopt;
+  if (!is_credible(rig, map, loop.edge)) return std::nullopt;
   return loop;
 }
 

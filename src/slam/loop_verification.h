@@ -22,8 +22,9 @@ struct VerifiedLoop {
 
 /// Whether the current keyframe really shows the candidate's place: RANSAC over rigid alignments (depth fixes
 /// the scale), then guided search for all points around the candidate. Enough of those that should be visible
-/// must agree, spread so that they determine the pose, and drift must be able to account for it (see
-/// is_plausible()). indices: of the current keyframe and the candidate. Takes shared locks of the map.
+/// must agree, spread so that they determine the pose. Within a session drift must be able to account for it
+/// (see is_plausible()); two sessions must agree wherever both have looked (see is_enough()). indices: of the
+/// current keyframe and the candidate. Takes shared locks of the map.
 [[nodiscard]] std::optional<VerifiedLoop> verify_loop(const Rig& rig, const Map& map, KeyFrameId current,
                                                       KeyFrameId candidate, const IndexPair& indices,
                                                       Random& random);

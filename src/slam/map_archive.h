@@ -22,14 +22,14 @@ struct LoadedMap {
 };
 
 /// Fills the empty map from the file Settings::load_map and has places remember its keyframes, by words found
-/// anew in their descriptors, whatever words the map was made with. Nothing without such a file. Throws what
-/// load_map_file() throws, and InputError for a file that holds several maps. One thread may work with the
-/// map.
+/// anew in their descriptors, whatever words the map was made with. The file's sessions keep their order and
+/// are numbered from 1. Nothing without such a file. Throws what load_map_file() throws, and InputError for a
+/// file without any. One thread may work with the map.
 [[nodiscard]] std::optional<LoadedMap> load_map(const Rig& rig, Map& map, Places* places, const Log& log);
 
-/// Writes the map and the frames that hang on it; a frame of a culled keyframe hangs on its nearest living
-/// ancestor from then on. places: null when places are not recognised. Throws RunError that names the file
-/// and the cause, also when there is no map yet. Takes a shared lock of the map to copy it.
+/// Writes all sessions of the map and the frames that hang on them; a frame of a culled keyframe hangs on its
+/// nearest living ancestor from then on. places: null when places are not recognised. Throws RunError that
+/// names the file and the cause, also when there is no map yet. Takes a shared lock of the map to copy it.
 void save_map(const std::string& path, const Rig& rig, const Map& map, const Places* places,
               const std::vector<LoggedFrame>& frames);
 

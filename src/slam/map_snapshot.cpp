@@ -43,21 +43,25 @@ void add_edges(const KeyFrame& keyframe, std::uint32_t from, const Ranks& ranks,
 
 }  // namespace
 
-MapSnapshot copy_for_viewer(const Map& map) {
+MapSnapshot copy_for_viewer(const Map& map, int session) {
   MapSnapshot snapshot;
+  snapshot.map = session;
   const std::shared_lock lock(map.mutex());
   snapshot.corrections = map.corrections();
   const std::vector<MapPointId> points = map.point_ids();
   snapshot.points.reserve(points.size());
   for (const MapPointId id : points) {
-    snapshot.points.push_back(to_world_point(map.point(id)->position_in_world));
+    const MapPoint& point = *map.point(id);
+    if (map.keyframe(point.reference)->session == session)
+      snapshot.points.push_back(to_world_point(point.position_in_world));
   }
-  const std::vector<KeyFrameId> keyframes = map.keyframes_by_sequence();
+  std::vector<KeyFrameId> keyframes = map.keyframes_by_sequence();
+  std::erase_if(keyframes, [&](KeyFrameId id) { return map.keyframe(id)->session != session; });
   const Ranks ranks(keyframes);
   snapshot.keyframes.reserve(keyframes.size());
   for (std::size_t i = 0; i < keyframes.size(); ++i) {
     const KeyFrame& keyframe = *map.keyframe(keyframes[i]);
-    snapshot.keyframes.push_back({keyframe.time_s, to_pose(keyframe.cam_from_world.inverse())});
+    snapshot.keyframes.push_back({keyframe.time_s, to_pose(keyframe.cam_from_world.inverse()), session});
     add_edges(keyframe, static_cast<std::uint32_t>(i), ranks, snapshot);
   }
   return snapshot;

@@ -31,6 +31,8 @@ void RecentPoints::cull(Map& map, KeyFrameId current) {
   std::erase_if(points_, [&](MapPointId id) {
     const MapPoint* point = map.point(id);
     if (point == nullptr) return true;
+    // The camera is in another session now: nobody has a turn to see it any more, and it stays.
+    if (map.session_of(point->reference) != keyframe->session) return true;
     const Verdict verdict = judge(*point, keyframe->sequence);
     if (verdict == Verdict::kFailed) map.erase_point(id);
     return verdict != Verdict::kStays;

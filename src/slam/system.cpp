@@ -1,5 +1,6 @@
 #include "cpslam/system.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "slam/frame_input.h"
 #include "slam/live_map.h"
 #include "slam/map_archive.h"
+#include "slam/map_counts.h"
 #include "slam/map_snapshot.h"
 #include "slam/places.h"
 #include "slam/rig.h"
@@ -123,7 +125,8 @@ class System::Impl {
   [[nodiscard]] DenseMap dense_map(const DenseMapOptions& options) const {
     if (!dense_views_) throw InputError("there is no dense map without settings.dense.enabled");
     return DenseMap(std::make_unique<const DenseMap::Impl>(
-        options, dense_views_->camera(), dense_views_->place(live_->map), dense_views_->n_dropped()));
+        options, dense_views_->camera(), dense_views_->place(live_->map, map_with_most_frames()),
+        dense_views_->n_dropped()));
   }
 
   [[nodiscard]] FrameView frame_view() const {
@@ -140,6 +143,7 @@ class System::Impl {
     statistics.dropped_maps = dropped_.size();
     statistics.people = people_.statistics();
     statistics.stages = timer_.summary();
+    statistics.maps = count_maps(live_->map, live_->tracking.trajectory());
     const std::shared_lock lock(live_->map.mutex());
     statistics.keyframes = live_->map.n_keyframes();
     statistics.map_points = live_->map.n_points();
@@ -148,7 +152,9 @@ class System::Impl {
 
  private:
   [[nodiscard]] std::unique_ptr<LiveMap> make_map(bool begin_loaded) {
-    return std::make_unique<LiveMap>(rig_, places_.get(), begin_loaded, timer_, log_);
+    // Numbers of maps go on: a pose says in which of all it is.
+    const int maps_before = live_ ? live_->sessions_created() : 0;
+    return std::make_unique<LiveMap>(rig_, places_.get(), begin_loaded, maps_before, timer_, log_);
   }
 
   [[nodiscard]] bool has_map() const {
@@ -238,9 +244,15 @@ class System::Impl {
   }
 
   [[nodiscard]] MapSnapshot map_snapshot() const {
-    MapSnapshot snapshot = copy_for_viewer(live_->map);
+    MapSnapshot snapshot = copy_for_viewer(live_->map, std::max(1, live_->tracking.session()));
     snapshot.trajectory = live_->tracking.trajectory();
+    std::erase_if(snapshot.trajectory, [&](const StampedPose& pose) { return pose.map != snapshot.map; });
     return snapshot;
+  }
+
+  [[nodiscard]] int map_with_most_frames() const {
+    const std::vector<MapCounts> maps = count_maps(live_->map, live_->tracking.trajectory());
+    return maps.empty() ? 1 : maps.front().map;
   }
 
   void count(const TrackResult& result) {

@@ -23,6 +23,13 @@ constexpr double kMaxTurnRadPerS = 12.0;
 // So many times Tracking.minInliers make a pose more than a weak one.
 constexpr int kFirmInliers = 2;
 
+/// Seconds; 0 for never. What no loop can ever connect would stay apart, so without loops the camera is
+/// looked for where it has been, as long as it takes.
+double begins_another_map_after(const Settings& settings, const Places* places) {
+  const bool connectable = places != nullptr && settings.loops.enabled;
+  return connectable ? settings.tracking.new_map_after_s : 0.0;
+}
+
 PoseCovariance to_array(const Eigen::Matrix<double, 6, 6>& covariance) {
   PoseCovariance array{};
   Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(array.data()) = covariance;
@@ -39,7 +46,8 @@ Tracking::Tracking(const Rig& rig, Map& map, const Places* places, StageTimer& t
       log_(std::move(log)),
       localizing_(rig.settings.localization),
       placer_(rig, map, places, timer),
-      trajectory_(std::move(earlier)) {
+      trajectory_(std::move(earlier)),
+      new_map_(begins_another_map_after(rig.settings, places)) {
   // In a loaded map the camera is somewhere, only nobody knows where yet.
   if (map.n_keyframes() > 0) state_ = TrackingState::kLost;
 }
@@ -68,23 +76,53 @@ TrackResult Tracking::track(double time_s, std::shared_ptr<const FrameFeatures> 
     result.keyframe = should_insert(frame, load);
     if (result.keyframe) insert(frame);
     finish_tracked(std::move(frame), result);
+  } else if (begin_another_map(frame)) {
+    result.keyframe = true;
+    finish_tracked(std::move(frame), result);
   } else {
     finish_untracked(frame, result);
   }
   return result;
 }
 
-bool Tracking::initialize(Frame& frame) {
+bool Tracking::could_begin_map(const Frame& frame) const {
   const auto& depths = frame.features->depth_m;
   const auto with_depth = std::count_if(depths.begin(), depths.end(), [](float d) { return d > 0.0F; });
-  if (with_depth < rig_.settings.tracking.min_initial_points) return false;
+  return with_depth >= rig_.settings.tracking.min_initial_points;
+}
+
+bool Tracking::initialize(Frame& frame) {
+  if (!could_begin_map(frame)) return false;
   insert(frame);
   placement_.inliers =
       static_cast<int>(std::count_if(frame.matches.begin(), frame.matches.end(), [](const PointMatch& m) {
         return m.kind == PointMatch::Kind::kMapPoint;
       }));
-  log_.info("map started with " + std::to_string(placement_.inliers) + " points");
+  log_.info("map " + std::to_string(session_of(new_keyframe_)) + " started with " +
+            std::to_string(placement_.inliers) + " points");
   return true;
+}
+
+bool Tracking::begin_another_map(Frame& frame) {
+  // In a loaded map that the camera has not been found in yet, its user wants to know where in it he is.
+  if (!has_last() || localizing_ || !new_map_.is_due(frame.time_s, could_begin_map(frame))) return false;
+  frame.cam_from_world = SE3();
+  frame.matches.assign(frame.matches.size(), PointMatch{});
+  placement_ = {};
+  velocity_ = SE3();
+  velocity_interval_s_ = 0.0;
+  state_ = TrackingState::kNotInitialized;
+  new_map_.begun();
+  return initialize(frame);
+}
+
+int Tracking::session() const {
+  return session_of(last_reference_);
+}
+
+int Tracking::session_of(KeyFrameId keyframe) const {
+  const std::shared_lock lock(map_.mutex());
+  return map_.session_of(keyframe);
 }
 
 bool Tracking::place(Frame& frame) {
@@ -150,6 +188,8 @@ void Tracking::insert(Frame& frame) {
   const auto scope = timer_.time("track: keyframe");
   new_keyframe_ = insert_keyframe(rig_, map_, placement_, frame);
   placement_ = placer_.place_keyframe(new_keyframe_, placement_);
+  // The map may have been moved between the two: they are one, wherever that is.
+  frame.cam_from_world = placement_.reference_from_world;
   best_inliers_ = 0;
 }
 
@@ -175,12 +215,14 @@ void Tracking::finish_tracked(Frame frame, TrackResult& result) {
   last_reference_ = placement_.reference;
   last_from_reference_ = frame.cam_from_world * placement_.reference_from_world.inverse();
   last_inliers_ = placement_.inliers;
+  new_map_.found(frame.time_s, result.keyframe);
   trajectory_.add(frame.time_s, last_reference_, last_from_reference_);
   const bool firm = !placement_.bridged &&
                     placement_.inliers >= kFirmInliers * rig_.settings.tracking.min_inliers &&
                     is_well_determined(placement_.covariance);
   result.state = firm ? TrackingState::kTracked : TrackingState::kWeak;
   result.n_inliers = placement_.inliers;
+  result.map = session();
   result.bridged = placement_.bridged;
   // A twist to the left of cam_from_world is one in the camera's own frame, to the right of its inverse.
   if (!placement_.bridged) result.covariance = to_array(placement_.covariance);
@@ -197,7 +239,9 @@ void Tracking::finish_untracked(const Frame& frame, TrackResult& result) {
   state_ = predictable ? TrackingState::kPredicted : TrackingState::kLost;
   result.state = state_;
   result.n_inliers = 0;
-  if (predictable) result.world_from_camera = to_pose(predicted_pose(frame.time_s).inverse());
+  if (!predictable) return;
+  result.world_from_camera = to_pose(predicted_pose(frame.time_s).inverse());
+  result.map = session();
 }
 
 std::vector<bool> Tracking::tracked_keypoints() const {

@@ -8,6 +8,7 @@
 #include "slam/frame.h"
 #include "slam/frame_placer.h"
 #include "slam/keyframe_decision.h"
+#include "slam/new_map_decision.h"
 #include "slam/rig.h"
 #include "slam/trajectory_log.h"
 #include "util/log.h"
@@ -45,17 +46,24 @@ class Tracking {
   /// Map points that the latest frame's pose stands on, as its matches saw them. Empty when it got none.
   [[nodiscard]] std::vector<WorldPoint> tracked_points() const;
 
+  /// Number of the map that the latest frame with a pose of its own is in; 0 before the first.
+  [[nodiscard]] int session() const;
+
   [[nodiscard]] Trajectory trajectory() const { return trajectory_.resolve(map_); }
   /// Of this run and of those that the loaded map is from.
   [[nodiscard]] const std::vector<LoggedFrame>& logged_frames() const { return trajectory_.frames(); }
 
  private:
   bool initialize(Frame& frame);
+  [[nodiscard]] bool could_begin_map(const Frame& frame) const;
+  /// Begins another map when the camera has been lost in a new place for long enough.
+  bool begin_another_map(Frame& frame);
   bool place(Frame& frame);
   [[nodiscard]] bool has_last() const { return last_.features != nullptr; }
   /// Brings the last frame up to date with the map; returns the map's count of corrections.
   std::uint64_t refresh_last();
   [[nodiscard]] std::uint64_t present_corrections() const;
+  [[nodiscard]] int session_of(KeyFrameId keyframe) const;
   void update_velocity(const Frame& frame);
   void count_visible(const Frame& frame);
   bool should_insert(const Frame& frame, MapperLoad load) const;
@@ -84,6 +92,7 @@ class Tracking {
   std::uint64_t n_frames_ = 0;
   std::size_t frames_without_pose_ = 0;
   TrajectoryLog trajectory_;
+  NewMapDecision new_map_;
 };
 
 }  // namespace cpslam

@@ -12,7 +12,8 @@ Trajectory TrajectoryLog::resolve(const Map& map) const {
     const LoggedFrame& frame = frames_[i];
     if (const auto reference_from_world = map.cam_from_world(frame.reference)) {
       const SE3 cam_from_world = frame.cam_from_reference * *reference_from_world;
-      trajectory.push_back({frame.time_s, to_pose(cam_from_world.inverse())});
+      trajectory.push_back(
+          {frame.time_s, to_pose(cam_from_world.inverse()), map.session_of(frame.reference)});
     }
   }
   return trajectory;
@@ -24,7 +25,7 @@ Trajectory keyframe_poses(const Map& map, std::uint64_t first_sequence) {
   for (const KeyFrameId id : map.keyframes_by_sequence()) {
     const KeyFrame& keyframe = *map.keyframe(id);
     if (keyframe.sequence < first_sequence) continue;
-    trajectory.push_back({keyframe.time_s, to_pose(keyframe.cam_from_world.inverse())});
+    trajectory.push_back({keyframe.time_s, to_pose(keyframe.cam_from_world.inverse()), keyframe.session});
   }
   return trajectory;
 }

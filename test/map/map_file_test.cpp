@@ -29,7 +29,7 @@ TEST(MapFile, RoundTrip) {
   for (std::uint64_t seed = 40; seed < 44; ++seed) {
     MapFile map = some_map(seed);
     if (seed == 41) map.vocabulary.reset();
-    if (seed == 42) map.sessions.push_back(test::some_parts(99, 100));
+    if (seed == 42) map.sessions.push_back(test::later_parts(99, map.sessions[0]));
     save_map_file(folder.file("a.map"), map);
     const MapFile read = load_map_file(folder.file("a.map"), map.camera, map.orb);
     EXPECT_EQ(read.vocabulary, map.vocabulary);
@@ -39,6 +39,15 @@ TEST(MapFile, RoundTrip) {
     EXPECT_EQ(to_bytes(read), to_bytes(map));
   }
   EXPECT_EQ(folder.file_count(), 1U) << "nothing is left beside it";
+}
+
+TEST(MapFile, SessionsThatAreNotOfOneMapAreRefused) {
+  MapFile twice = some_map();
+  twice.sessions.push_back(twice.sessions[0]);
+  EXPECT_THAT(input_error([&] { (void)map_of(to_bytes(twice)); }), HasSubstr("another one has"));
+  MapFile turned = some_map();
+  turned.sessions.insert(turned.sessions.begin(), test::later_parts(99, turned.sessions[0]));
+  EXPECT_THAT(input_error([&] { (void)map_of(to_bytes(turned)); }), HasSubstr("session 1 comes before"));
 }
 
 TEST(MapFile, LoadedIntoAMapAndSavedAgainItIsTheSameToTheByte) {

@@ -20,6 +20,14 @@ inline MapParts some_parts(std::uint64_t seed, int steps, bool lonely = false) {
   return parts;
 }
 
+/// Parts of a session that was begun after the other one.
+inline MapParts later_parts(std::uint64_t seed, const MapParts& earlier) {
+  MapParts parts = some_parts(seed, 100);
+  for (MapParts::KeyFramePart& keyframe : parts.keyframes) keyframe.sequence += earlier.keyframes_created;
+  parts.keyframes_created += earlier.keyframes_created;
+  return parts;
+}
+
 inline MapFile some_map(std::uint64_t seed = 7, int steps = 400) {
   MapFile map;
   map.camera = synthetic::settings().camera;

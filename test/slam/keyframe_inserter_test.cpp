@@ -99,7 +99,10 @@ TEST(KeyFrameInserter, ObservesWhatTheFrameWasMatchedTo) {
   frame.matches[3] = frame.matches[2];
   const MapPointId of_both = frame.matches[2].id;
   const std::vector<PointMatch> before = frame.matches;
-  const KeyFrameId id = insert_keyframe(kRig, mapped.map, Placement{}, frame);
+  Placement placement;
+  placement.reference = mapped.keyframes[0];
+  placement.reference_from_world = mapped.views[0].cam_from_world;
+  const KeyFrameId id = insert_keyframe(kRig, mapped.map, placement, frame);
   expect_frame_and_keyframe_agree(mapped.map, id, frame);
   EXPECT_NE(frame.matches[static_cast<std::size_t>(erased_keypoint)].id, before[1].id)
       << "a new point in its place";
@@ -109,6 +112,23 @@ TEST(KeyFrameInserter, ObservesWhatTheFrameWasMatchedTo) {
   for (std::size_t i = 4; i < before.size(); ++i) EXPECT_EQ(frame.matches[i].id, before[i].id);
   EXPECT_EQ(mapped.map.keyframe(id)->parent, mapped.keyframes[0]);
   EXPECT_EQ(mapped.map.best_covisible(id, 5), std::vector<KeyFrameId>{mapped.keyframes[0]});
+}
+
+TEST(KeyFrameInserter, WithoutAReferenceASessionBegins) {
+  Random random(5);
+  const synthetic::World world = synthetic::random_world(300, random, 1.0, 4.0);
+  Map map(kRig.pyramid);
+  std::vector<KeyFrameId> ids;
+  for (int i = 0; i < 3; ++i) {
+    Frame frame = scene::make_frame(synthetic::look(world, {}, {}, random), i);
+    Placement placement;
+    if (i == 2) placement.reference = ids[0];
+    ids.push_back(insert_keyframe(kRig, map, placement, frame));
+  }
+  EXPECT_EQ(map.session_of(ids[0]), 1);
+  EXPECT_EQ(map.session_of(ids[1]), 2);
+  EXPECT_EQ(map.session_of(ids[2]), 1) << "that of its reference";
+  EXPECT_TRUE(map.is_root(ids[1]));
 }
 
 TEST(KeyFrameInserter, FollowsAReferenceThatTheMapperMovedMeanwhile) {

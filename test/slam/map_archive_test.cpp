@@ -110,14 +110,42 @@ TEST_F(MapArchive, NothingToLoadOrToSave) {
   EXPECT_EQ(folder.file_count(), 0U);
 }
 
-TEST_F(MapArchive, SeveralMapsInAFileAreRefused) {
+TEST_F(MapArchive, EverySessionComesBackWithItsFrames) {
+  log.add(1.5, mapped.keyframes[1], cam_from_reference);
+  KeyFrame elsewhere;
+  elsewhere.session = 2;
+  elsewhere.time_s = 7.0;
+  elsewhere.features = mapped.views[0].features;
+  const KeyFrameId other = mapped.map.add_keyframe(std::move(elsewhere));
+  mapped.map.add_point({0.0, 0.0, 2.0}, {other, 3});
+  log.add(7.5, other, cam_from_reference);
+  log.add(8.5, mapped.keyframes[2], cam_from_reference);
+  const Places made(vocabulary_of(mapped.world.descriptors, 1));
+  save(&made);
+  Places places(vocabulary_of(mapped.world.descriptors, 1));
+  Map map(scene::kRig.pyramid);
+  const auto loaded = load_map(loading(), map, &places, silent);
+  ASSERT_TRUE(loaded.has_value());
+  EXPECT_THAT(map.sessions(), testing::ElementsAre(1, 2));
+  EXPECT_EQ(loaded->statistics.maps, 2U);
+  EXPECT_EQ(loaded->statistics.keyframes, 4U);
+  EXPECT_EQ(loaded->statistics.points, mapped.map.n_points());
+  EXPECT_EQ(loaded->next_sequence, 4U);
+  EXPECT_EQ(places.database.size(), 4U);
+  std::vector<std::pair<double, int>> frames;
+  for (const LoggedFrame& frame : loaded->frames)
+    frames.emplace_back(frame.time_s, map.session_of(frame.reference));
+  EXPECT_THAT(frames, testing::ElementsAre(std::pair(1.5, 1), std::pair(8.5, 1), std::pair(7.5, 2)));
+}
+
+TEST_F(MapArchive, AFileWithoutAMapIsRefused) {
   save();
   MapFile file = load_map_file(path, scene::kRig.settings.camera, scene::kRig.settings.orb);
-  file.sessions.push_back(file.sessions.front());
+  file.sessions.clear();
   save_map_file(path, file);
   Map map(scene::kRig.pyramid);
   EXPECT_THAT(input_error([&] { (void)load_map(loading(), map, nullptr, silent); }),
-              AllOf(HasSubstr("room.map"), HasSubstr("holds 2 maps")));
+              AllOf(HasSubstr("room.map"), HasSubstr("no map in it")));
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ class System::Impl {
       : log_(std::move(log)),
         rig_(checked(settings)),
         places_(make_places(rig_.settings)),
-        live_(make_map(true)),
+        live_(make_map(true, 0)),
         features_(rig_.settings.camera, rig_.settings.orb),
         people_(rig_.settings, std::move(detector), timer_, log_) {
     if (live_->loaded) counts_.loaded_map = live_->loaded->statistics;
@@ -88,7 +88,7 @@ class System::Impl {
     if (!has_map()) return;
     if (live_->tracking.localizing())
       throw InputError("the map is not dropped while localising in it: switch localisation off first");
-    std::unique_ptr<LiveMap> next = make_map(false);
+    std::unique_ptr<LiveMap> next = make_map(false, live_->sessions_created());
     dropped_.push_back({live_->tracking.trajectory(), live_->keyframe_trajectory()});
     live_.swap(next);
     next->add_work_to(counts_);
@@ -151,9 +151,7 @@ class System::Impl {
   }
 
  private:
-  [[nodiscard]] std::unique_ptr<LiveMap> make_map(bool begin_loaded) {
-    // Numbers of maps go on: a pose says in which of all it is.
-    const int maps_before = live_ ? live_->sessions_created() : 0;
+  [[nodiscard]] std::unique_ptr<LiveMap> make_map(bool begin_loaded, int maps_before) {
     return std::make_unique<LiveMap>(rig_, places_.get(), begin_loaded, maps_before, timer_, log_);
   }
 

@@ -4,8 +4,8 @@ import sys
 import time
 
 from .. import output
-from . import (cost, crowd, false_boxes, loops, paper, paper_table, relocalisation, sitting, tables, trials,
-               walking)
+from . import (cost, crowd, false_boxes, loops, paper, paper_table, relocalisation, sessions, sitting, tables,
+               trials, walking)
 
 # name: (trial, table, number of its results where that is known beforehand)
 TRIALS = {
@@ -21,6 +21,7 @@ TRIALS = {
     "people_cost": (cost.cost, cost.table, cost.count),
     "relocalisation": (relocalisation.relocalisation, relocalisation.table, relocalisation.count),
     "loops": (loops.loops, loops.table, loops.count),
+    "sessions": (sessions.sessions, sessions.table, sessions.count),
     "static_rooms": (trials.static_rooms, tables.static_rooms, None),
     "plateau": (trials.plateau, tables.plateau, None),
     "sanitizers": (trials.sanitizers, tables.sanitizers, None),

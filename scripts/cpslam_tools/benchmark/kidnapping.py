@@ -14,28 +14,17 @@ from .sequences import RearrangedSequence
 INTERVAL_S = 1.0 / 30.0
 
 
-class KidnappedSequence(RearrangedSequence):
-    """Frames 0 to n_map - 1 of a source that passes everywhere twice, then `kidnaps` times: n_covered frames of the cover
-    and n_back frames from a random place of the second pass, which begins at second_pass, never near the one before. With
-    n_map below second_pass the rest is not mapped. Stamps go on as if nothing were. Who covers the camera has a box.
+class CoveredSequence(RearrangedSequence):
+    """A source's frames in another order, with frames of the cover between them; stamps go on as if nothing were. Who covers
+    the camera has a box."""
 
-    visits: [(stamp of the first frame, stamp of the last)] of each coming back, once the sequence is ready."""
-
-    def __init__(self, source, work_dir, n_map, second_pass, kidnaps, n_covered, n_back, seed, cover):
-        super().__init__(source, work_dir, f"{kidnaps} kidnaps, {cover.name}", "kidnapped")
+    def __init__(self, source, work_dir, what, suffix, cover):
+        super().__init__(source, work_dir, what, suffix)
         self.cover = cover
-        self.n_map = n_map
-        self.second_pass = second_pass
-        self.kidnaps = kidnaps
-        self.n_covered = n_covered
-        self.n_back = n_back
-        self.seed = seed
-        self.visits = []
 
-    @property
-    def end_of_mapping(self):
-        """Stamp of the first covered frame."""
-        return self.visits[0][0] - (self.n_covered + 0.5) * INTERVAL_S
+    def _order(self, n_frames):
+        """Frames of the source in the order in which they are shown; None for a covered one."""
+        raise NotImplementedError
 
     def _write(self):
         colour, depth, truth = (self._rows(name) for name in ("rgb.txt", "depth.txt", "groundtruth.txt"))
@@ -63,14 +52,38 @@ class KidnappedSequence(RearrangedSequence):
             box_files.write_boxes(self.boxes, [(stamp, *self.cover.box()) for stamp in covered])
         for folder in ("rgb", "depth"):
             self._link(folder)
+        return colour[0][0]
 
-        first = colour[0][0] + (self.n_map + self.n_covered) * INTERVAL_S
+
+class KidnappedSequence(CoveredSequence):
+    """Frames 0 to n_map - 1 of a source that passes everywhere twice, then `kidnaps` times: n_covered frames of the cover
+    and n_back frames from a random place of the second pass, which begins at second_pass, never near the one before. With
+    n_map below second_pass the rest is not mapped.
+
+    visits: [(stamp of the first frame, stamp of the last)] of each coming back, once the sequence is ready."""
+
+    def __init__(self, source, work_dir, n_map, second_pass, kidnaps, n_covered, n_back, seed, cover):
+        super().__init__(source, work_dir, f"{kidnaps} kidnaps, {cover.name}", "kidnapped", cover)
+        self.n_map = n_map
+        self.second_pass = second_pass
+        self.kidnaps = kidnaps
+        self.n_covered = n_covered
+        self.n_back = n_back
+        self.seed = seed
+        self.visits = []
+
+    @property
+    def end_of_mapping(self):
+        """Stamp of the first covered frame."""
+        return self.visits[0][0] - (self.n_covered + 0.5) * INTERVAL_S
+
+    def _write(self):
+        first = super()._write() + (self.n_map + self.n_covered) * INTERVAL_S
         period = (self.n_covered + self.n_back) * INTERVAL_S
         self.visits = [(first + k * period, first + k * period + (self.n_back - 1) * INTERVAL_S)
                        for k in range(self.kidnaps)]
 
     def _order(self, n_frames):
-        """Frames of the source in the order in which they are shown; None for a covered one."""
         order = list(range(self.n_map))
         for start in visit_starts(self.second_pass, n_frames - self.n_back, self.kidnaps,
                                   np.random.default_rng(self.seed)):

@@ -47,14 +47,18 @@ class CarriedSequence(CoveredSequence):
 def sessions(plan):
     """Per walk and room: the repeats, threaded."""
     for preset, (frames, n_first, n_away, after_s, _) in WALKS.items():
-        for seed in range(1, SEEDS + 1):
+        for seed in range(1, _rooms(plan) + 1):
             source = SimulatedSequence(plan.programs, preset, plan.work_dir, frames, seed, keep=plan.keep)
             walk = CarriedSequence(source, plan.work_dir, n_first, n_away, after_s)
             yield from on_sequence(walk, lambda ready: _runs(plan, ready), preset=preset, room=seed)
 
 
 def count(plan):
-    return len(WALKS) * SEEDS * plan.repeats
+    return len(WALKS) * _rooms(plan) * plan.repeats
+
+
+def _rooms(plan):
+    return min(plan.seeds, SEEDS)
 
 
 def _runs(plan, walk):

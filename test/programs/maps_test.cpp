@@ -12,14 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-void change_setting(const OfficeSequence& office, const std::string& key, const std::string& value) {
-  std::string settings = TemporaryFolder::content(office.settings());
-  const std::size_t at = settings.find(key + ": ");
-  ASSERT_NE(at, std::string::npos);
-  settings.replace(at, settings.find('\n', at) - at, key + ": " + value);
-  office.folder().write("office/settings.yaml", settings);
-}
-
 TEST(MapOptions, SaveLoadLocalise) {
   const OfficeSequence office;
   const std::string map = office.folder().file("office.map");
@@ -74,7 +66,7 @@ TEST(MapOptions, AMapOfAnotherCamera) {
   const OfficeSequence office;
   const std::string map = office.folder().file("office.map");
   ASSERT_EQ(office.track({"--save-map", map, "--quiet"}).exit_code, 0);
-  change_setting(office, "Camera.fx", "333.0");
+  office.change_setting("Camera.fx", "333.0");
   expect_refused(office.track({"--load-map", map}), {map, "another camera", "Camera.fx is", "333"});
 }
 
@@ -120,7 +112,7 @@ TEST(MapOptions, AFullDiskKeepsTheOldMapAndIsTold) {
 TEST(MapOptions, WithoutAMapTheOldOneStays) {
   const OfficeSequence office;
   const std::string map = office.folder().write("office.map", "of the last run");
-  change_setting(office, "Tracking.minInitialPoints", "100000");
+  office.change_setting("Tracking.minInitialPoints", "100000");
   const ProgramResult result = office.track({"--save-map", map, "--quiet"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("no map to save"));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <stdexcept>
 
 #include "io/trajectory_io.h"
 #include "io/tum_sequence.h"
@@ -58,6 +59,14 @@ std::vector<std::pair<std::string, std::string>> OfficeSequence::pairs(bool back
     all.emplace_back(colour_[frame], depth_[frame]);
   }
   return all;
+}
+
+void OfficeSequence::change_setting(const std::string& key, const std::string& value) const {
+  std::string text = TemporaryFolder::content(settings());
+  const std::size_t at = text.find(key + ": ");
+  if (at == std::string::npos) throw std::invalid_argument(key);
+  text.replace(at, text.find('\n', at) - at, key + ": " + value);
+  folder_.write("office/settings.yaml", text);
 }
 
 ProgramResult OfficeSequence::track(const std::vector<std::string>& arguments,

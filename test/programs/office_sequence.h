@@ -36,6 +36,9 @@ class OfficeSequence {
   /// The sequence's pairs, forward or backward.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> pairs(bool backward = false) const;
 
+  /// Gives a key of the settings file another value.
+  void change_setting(const std::string& key, const std::string& value) const;
+
   /// `rgbd_tum - SETTINGS SEQUENCE <arguments> --output output()`, without a detector when the arguments name
   /// none: whether there is a bundled network makes no difference.
   [[nodiscard]] ProgramResult track(const std::vector<std::string>& arguments = {},

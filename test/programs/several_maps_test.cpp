@@ -22,8 +22,7 @@ class SeveralMaps : public testing::Test {
     pairs_ = office_.pairs();
     for (std::size_t i = 0; i < OfficeSequence::kFrames; ++i)
       pairs_.emplace_back(mirrored(office_.colour(i), "colour", i), mirrored(office_.depth(i), "depth", i));
-    office_.folder().write("office/settings.yaml",
-                           TemporaryFolder::content(office_.settings()) + "Tracking.newMapAfter: 0.1\n");
+    office_.change_setting("Tracking.newMapAfter", "0.1");
   }
   [[nodiscard]] std::string mirrored(const std::string& file, const std::string& name, std::size_t i) const {
     const cv::Mat image = cv::imread(office_.file(file), cv::IMREAD_UNCHANGED);

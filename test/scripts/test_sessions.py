@@ -16,7 +16,7 @@ def source(tmp_path):
     folder = tmp_path / "room"
     (folder / "rgb").mkdir(parents=True)
     (folder / "depth").mkdir()
-    (folder / "settings.yaml").write_text("%YAML:1.0\nCamera.fx: 500\n")
+    (folder / "settings.yaml").write_text("%YAML:1.0\nCamera.fx: 500\nTracking.newMapAfter: 3\n")
     for name, field in (("rgb.txt", "rgb/{}.png"), ("depth.txt", "depth/{}.png"), ("groundtruth.txt", "{} 0 0 0 0 0 1")):
         (folder / name).write_text("".join(f"{1000 + i * INTERVAL_S:.6f} {field.format(i)}\n" for i in range(N_FRAMES)))
     return Sequence("room", str(folder), str(folder / "settings.yaml"))
@@ -33,7 +33,7 @@ def test_the_camera_is_covered_and_uncovered_elsewhere(source, tmp_path, after_s
                      + [f"rgb/{i}.png" for i in range(N_AWAY, N_FRAMES)])
     assert len(truth) == N_FIRST + N_FRAMES - N_AWAY
     assert settings.startswith("%YAML:1.0\nCamera.fx: 500\n")
-    assert ("Tracking.newMapAfter: 1.0" in settings) == (after_s is not None)
+    assert settings.splitlines()[2:] == [f"Tracking.newMapAfter: {after_s or 3}"]
 
 
 def run(preset, joined, maps, ate=0.02, false=0, error=None):

@@ -13,6 +13,7 @@ from .sequences import SimulatedSequence
 N_COVERED = 45
 SEEDS = 3
 AIM_M = 0.05
+NEW_MAP_AFTER = "Tracking.newMapAfter:"
 # preset: frames of the walk, of them mapped at first, the one at which the lens is uncovered, seconds until another map is
 # begun (None: as it comes), and whether the camera comes back to what was mapped. In the desks' room it does not: the first
 # map has one desk, the second the other.
@@ -36,11 +37,11 @@ class CarriedSequence(CoveredSequence):
     def _write(self):
         first = super()._write()
         with open(self.source.settings, encoding="utf-8") as file:
-            text = file.read()
+            lines = file.read().splitlines()
         if self.new_map_after_s is not None:
-            text += f"\nTracking.newMapAfter: {self.new_map_after_s}\n"
+            lines = [line for line in lines if not line.startswith(NEW_MAP_AFTER)] + [f"{NEW_MAP_AFTER} {self.new_map_after_s}"]
         with open(self.settings, "w", encoding="utf-8") as file:
-            file.write(text)
+            file.write("".join(line + "\n" for line in lines))
         return first
 
 

@@ -15,6 +15,9 @@ namespace cpslam::e2e {
 namespace {
 
 constexpr double kFps = 10.0;
+// At a third of the frames and a quarter of the pixels odometry drifts by 0.07 m; a map that is joined to the
+// wrong place is off by metres.
+constexpr double kInPlaceM = 0.12;
 
 std::size_t at_s(double seconds) {
   return static_cast<std::size_t>(std::lround(seconds * kFps));
@@ -107,7 +110,7 @@ TEST_F(Sessions, ComingBackMakesOneMapOfTwo) {
     ASSERT_EQ(walk.away.size(), 2U);
     EXPECT_EQ(walk.away[0][0].map, 2) << "that with most frames first";
     EXPECT_EQ(walk.away[1].size(), at_s(8.0));
-    for (const Trajectory& map : walk.away) EXPECT_LT(ate_m(*ring_, map), 0.05);
+    for (const Trajectory& map : walk.away) EXPECT_LT(ate_m(*ring_, map), kInPlaceM);
 
     EXPECT_TRUE(walk.joined_at);
     const Statistics statistics = system.statistics();
@@ -123,7 +126,7 @@ TEST_F(Sessions, ComingBackMakesOneMapOfTwo) {
     EXPECT_EQ(trajectory.size(), walk.tracked) << "nothing is thrown away";
     EXPECT_EQ(split_by_map(trajectory).size(), 1U);
     EXPECT_EQ(split_by_map(system.keyframe_trajectory()).size(), 1U);
-    EXPECT_LT(ate_m(*ring_, trajectory), 0.07);
+    EXPECT_LT(ate_m(*ring_, trajectory), kInPlaceM);
     // The covered second, and three in which the camera looked for a place that it knew.
     EXPECT_GE(walk.tracked + at_s(1.0 + 3.0) + 5, ring_->frames.size());
     RecordProperty("ate_m", std::to_string(ate_m(*ring_, trajectory)));

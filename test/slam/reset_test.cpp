@@ -38,6 +38,8 @@ TEST(Reset, AfterItEverythingIsAsInANewSystem) {
     ASSERT_EQ(result.state, TrackingState::kTracked) << i;
     EXPECT_EQ(result.n_inliers, expected.n_inliers) << i;
     EXPECT_EQ(result.keyframe, expected.keyframe) << i;
+    EXPECT_EQ(result.map, 2) << "another map, another world";
+    EXPECT_EQ(expected.map, 1);
   }
   expect_same(reset.trajectory(), fresh.trajectory());
   expect_same(reset.keyframe_trajectory(), fresh.keyframe_trajectory());
@@ -64,6 +66,9 @@ TEST(Reset, CountsGoOnOverAllMaps) {
   for (std::size_t i = 15; i < 30; ++i) frames.track(system, i);
   const Statistics at_end = system.statistics();
   EXPECT_EQ(at_end.frames, 30U);
+  EXPECT_EQ(at_end.maps_started, 2U);
+  ASSERT_EQ(at_end.maps.size(), 1U);
+  EXPECT_EQ(at_end.maps[0].frames, 15U);
   EXPECT_EQ(at_end.keyframes_created, before.keyframes_created + at_end.keyframes);
   EXPECT_EQ(at_end.local_bundle_adjustments, at_end.keyframes_created);
   EXPECT_GT(at_end.map_points_created, before.map_points_created);

@@ -46,6 +46,21 @@ void append(Clip& clip, const Clip& more) {
   }
 }
 
+/// The camera goes along the path for so many frames and comes back: past where a map of its beginning ends.
+Clip there_and_back(const std::string& preset, std::size_t n_frames) {
+  Clip clip = walk(preset, static_cast<int>(n_frames), 5);
+  Clip back = clip;
+  std::reverse(back.frames.begin(), back.frames.end());
+  append(clip, back);
+  return clip;
+}
+
+void save_map_of(const Clip& clip, const std::string& path) {
+  System system(clip.settings);
+  (void)track_all(system, clip);
+  system.save_map(path);
+}
+
 Settings in_map(const Clip& clip, const std::string& map, bool localization) {
   Settings settings = clip.settings;
   settings.load_map = map;
@@ -183,19 +198,11 @@ TEST_F(Maps, ALoadedMapBehavesLikeTheOneThatWasSaved) {
 }
 
 TEST_F(Maps, WhereTheMapShowsNothingPosesAreCarriedOn) {
-  // The map is of where the walk begins; the camera goes on round the desks and comes back.
   const std::string small = file("small.map");
   const Clip view = walk("office_rounds", 20, 1);
-  {
-    System system(view.settings);
-    (void)track_all(system, view);
-    system.save_map(small);
-  }
+  save_map_of(view, small);
   constexpr std::size_t kOut = 120;
-  Clip clip = walk("office_rounds", static_cast<int>(kOut), 5);
-  Clip back = clip;
-  std::reverse(back.frames.begin(), back.frames.end());
-  append(clip, back);
+  const Clip clip = there_and_back("office_rounds", kOut);
   System system(in_map(clip, small, true));
   const std::vector<TrackResult> results = track_all(system, clip);
   const Statistics statistics = system.statistics();
@@ -215,6 +222,33 @@ TEST_F(Maps, WhereTheMapShowsNothingPosesAreCarriedOn) {
   }
   System mapping(in_map(clip, small, false));
   for (const TrackResult& result : track_all(mapping, clip)) EXPECT_FALSE(result.bridged);
+}
+
+TEST_F(Maps, WhoSwitchesToMappingOutsideTheMapIsCarriedBackToIt) {
+  const std::string small = file("small.map");
+  const Clip view = walk("office_rounds", 20, 1);
+  save_map_of(view, small);
+  constexpr std::size_t kOut = 80;
+  const Clip clip = there_and_back("office_rounds", kOut);
+  System system(in_map(clip, small, true));
+  const std::size_t loaded = system.statistics().keyframes_created;
+  std::size_t last_bridged = 0;
+  std::size_t first_keyframe = 0;
+  TrackResult last;
+  for (std::size_t i = 0; i < clip.frames.size(); ++i) {
+    if (i == kOut) system.set_localization(false);
+    const ClipFrame& frame = clip.frames[i];
+    const TrackResult result = system.track(frame.colour, frame.depth, frame.time_s);
+    EXPECT_TRUE(is_tracked(result.state)) << i;
+    if (result.bridged) last_bridged = i;
+    if (result.keyframe && first_keyframe == 0) first_keyframe = i;
+    EXPECT_TRUE(i != kOut || result.bridged);
+    last = result;
+  }
+  EXPECT_GT(last_bridged, kOut);
+  EXPECT_GT(first_keyframe, last_bridged) << "nothing is mapped before the map is found again";
+  EXPECT_GT(system.statistics().keyframes_created, loaded);
+  EXPECT_LT(position_error_m(last, clip.frames.back(), view.frames[0]), kSamePlaceM);
 }
 
 TEST_F(Maps, InAnotherRoomNothingIsRecognised) {

@@ -1,5 +1,6 @@
 #include "slam/place_evidence.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -8,13 +9,16 @@
 namespace cpslam {
 namespace {
 
+constexpr float kNearPx = 25.0F;
 constexpr float kBesidePx = 8.0F;
 // Noise of the depth, error of the pose, and a keypoint that lies beside the point on a slanted surface.
 constexpr double kToleranceM = 0.1;
 constexpr double kRelativeTolerance = 0.03;
-// Right places and wrong ones in docs/benchmarks.md, Places: neither share tells all of them apart, both do.
+// Right places and wrong ones in docs/benchmarks.md, Places: no share tells all of them apart.
 constexpr double kPlentyMatched = 0.36;
-constexpr double kMuchSeenThrough = 0.12;
+constexpr double kEnoughMatched = 0.24;
+constexpr double kEnoughFound = 0.22;
+constexpr double kMuchSeenThrough = 0.09;
 
 enum class Depths : std::uint8_t { kNone, kAgree, kNearer, kFarther };
 
@@ -35,6 +39,11 @@ Depths compare_depths(const FrameFeatures& features, const std::vector<int>& key
   return result;
 }
 
+bool is_beside(const FrameFeatures& features, int i, const Eigen::Vector2f& uv) {
+  const Keypoint& keypoint = features.keypoints[static_cast<std::size_t>(i)];
+  return std::abs(keypoint.x - uv.x()) <= kBesidePx && std::abs(keypoint.y - uv.y()) <= kBesidePx;
+}
+
 double share(std::ptrdiff_t part, std::ptrdiff_t rest) {
   return part == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(part + rest);
 }
@@ -42,23 +51,28 @@ double share(std::ptrdiff_t part, std::ptrdiff_t rest) {
 }  // namespace
 
 bool PlaceEvidence::is_convincing() const {
-  return matched_share >= kPlentyMatched || seen_through_share <= kMuchSeenThrough;
+  if (matched_share >= kPlentyMatched) return true;
+  const bool enough = matched_share >= kEnoughMatched || found_share >= kEnoughFound;
+  return enough && seen_through_share <= kMuchSeenThrough;
 }
 
 PlaceEvidence place_evidence(const Rig& rig, const LocalMap& local_map, const Frame& frame) {
   const FrameFeatures& features = *frame.features;
   const Eigen::Vector3d centre = frame.cam_from_world.inverse().translation;
   std::vector<std::uint8_t> is_beside_point(static_cast<std::size_t>(features.size()), 0);
-  std::vector<int> beside;
-  std::ptrdiff_t n_seen = 0, n_seen_through = 0;
+  std::vector<int> near;
+  std::ptrdiff_t n_expected = 0, n_seen = 0, n_seen_through = 0;
   for (const PointSnapshot& point : local_map.points()) {
     const auto query = expect_point(rig, point, frame.cam_from_world, centre, {});
     if (!query) continue;
-    beside.clear();
-    features.grid.query(query->uv.x(), query->uv.y(), kBesidePx, 0, rig.pyramid.n_levels() - 1, beside);
-    for (const int i : beside) is_beside_point[static_cast<std::size_t>(i)] = 1;
+    near.clear();
+    features.grid.query(query->uv.x(), query->uv.y(), kNearPx, 0, rig.pyramid.n_levels() - 1, near);
+    if (near.empty()) continue;
+    ++n_expected;
+    std::erase_if(near, [&](int i) { return !is_beside(features, i, query->uv); });
+    for (const int i : near) is_beside_point[static_cast<std::size_t>(i)] = 1;
     const Depths depths =
-        compare_depths(features, beside, (frame.cam_from_world * point.position_in_world).z());
+        compare_depths(features, near, (frame.cam_from_world * point.position_in_world).z());
     n_seen += depths == Depths::kAgree ? 1 : 0;
     n_seen_through += depths == Depths::kFarther ? 1 : 0;
   }
@@ -70,7 +84,9 @@ PlaceEvidence place_evidence(const Rig& rig, const LocalMap& local_map, const Fr
       ++n_unmatched;
     }
   }
-  return {share(n_matched, n_unmatched), share(n_seen_through, n_seen)};
+  // A found one that is not expected (at a bad angle, say) must not make more than all.
+  const std::ptrdiff_t n_not_found = std::max<std::ptrdiff_t>(0, n_expected - n_matched);
+  return {share(n_matched, n_unmatched), share(n_matched, n_not_found), share(n_seen_through, n_seen)};
 }
 
 }  // namespace cpslam

@@ -7,10 +7,14 @@
 namespace cpslam {
 
 /// What speaks for and against a frame being where a few dozen matches put it. Another desk of the same kind
-/// agrees with many points of this one; but then the frame's other keypoints find no partner, and it looks
-/// through where the map says that something is.
+/// agrees with many points of this one; but then most of the other points are not found, the frame's other
+/// keypoints match none, and it looks through where the map says that something is.
 struct PlaceEvidence {
-  double matched_share = 0.0;  ///< of the keypoints where the map lets expect a point: matched to one
+  /// Of the keypoints where the map lets expect a point: matched to one. Low where the map is dense.
+  double matched_share = 0.0;
+  /// Of the points that are expected where the frame has keypoints: found. Low where one spot has many
+  /// points.
+  double found_share = 0.0;
   /// Of the points that are expected and beside which a depth was read: nothing there, only what is farther.
   /// A nearer depth says nothing: somebody may stand there.
   double seen_through_share = 0.0;

@@ -42,12 +42,31 @@ class Evidence : public testing::Test {
   Frame frame_;
 };
 
-TEST_F(Evidence, MatchedShareGrowsWithTheMatches) {
+TEST_F(Evidence, BothSharesGrowWithTheMatches) {
   EXPECT_DOUBLE_EQ(evidence().matched_share, 0.0);
+  EXPECT_DOUBLE_EQ(evidence().found_share, 0.0);
   match(100);
   EXPECT_NEAR(evidence().matched_share, 0.25, 0.01);
+  EXPECT_NEAR(evidence().found_share, 0.25, 0.01);
   match(400);
   EXPECT_DOUBLE_EQ(evidence().matched_share, 1.0);
+  EXPECT_DOUBLE_EQ(evidence().found_share, 1.0);
+}
+
+TEST_F(Evidence, WhereNothingCanBeSeenNothingIsMissing) {
+  // A person in front of the left two thirds: there are no keypoints, and half of the others are matched.
+  std::vector<synthetic::Spot> spots;
+  for (const Keypoint& keypoint : frame_.features->keypoints) {
+    if (keypoint.x < 400.0F) continue;
+    spots.push_back({.x = static_cast<double>(keypoint.x),
+                     .y = static_cast<double>(keypoint.y),
+                     .descriptor = {},
+                     .depth_m = 2.0});
+  }
+  frame_.features = synthetic::make_features(spots);
+  frame_.matches.assign(spots.size(), {});
+  match(spots.size() / 2);
+  EXPECT_NEAR(evidence().found_share, 0.5, 0.08);
 }
 
 TEST_F(Evidence, TemporaryPointsAreNoMatches) {
@@ -83,13 +102,18 @@ TEST_F(Evidence, WithoutDepthsOrWithoutAMapThereIsNone) {
   EXPECT_DOUBLE_EQ(evidence().seen_through_share, 0.0);
   const PlaceEvidence nothing = place_evidence(kRig, LocalMap(), frame_);
   EXPECT_DOUBLE_EQ(nothing.matched_share, 0.0);
+  EXPECT_DOUBLE_EQ(nothing.found_share, 0.0);
   EXPECT_DOUBLE_EQ(nothing.seen_through_share, 0.0);
 }
 
-TEST(PlaceEvidence, OneOfTwoHasToConvince) {
-  EXPECT_TRUE((PlaceEvidence{0.5, 0.2}.is_convincing()));    // things were moved since
-  EXPECT_TRUE((PlaceEvidence{0.15, 0.05}.is_convincing()));  // seen from the side
-  EXPECT_FALSE((PlaceEvidence{0.3, 0.15}.is_convincing()));  // another desk of the same kind
+/// matched, found, seen through
+TEST(PlaceEvidence, HasToConvince) {
+  EXPECT_TRUE((PlaceEvidence{0.5, 0.1, 0.2}.is_convincing()));     // things were moved since
+  EXPECT_TRUE((PlaceEvidence{0.13, 0.3, 0.05}.is_convincing()));   // a corner of what is mapped
+  EXPECT_TRUE((PlaceEvidence{0.25, 0.13, 0.05}.is_convincing()));  // among many points
+  EXPECT_FALSE(
+      (PlaceEvidence{0.3, 0.3, 0.15}.is_convincing()));  // another desk of the same kind, seen through
+  EXPECT_FALSE((PlaceEvidence{0.2, 0.15, 0.0}.is_convincing()));  // and one that is not
 }
 
 }  // namespace

@@ -55,7 +55,8 @@ def parse(arguments):
     parser.add_argument("--perturbations", type=positive, default=10,
                         help="pairs of runs per preset in people_sitting, and in people_false_boxes (default 10)")
     parser.add_argument("--frames", type=positive, default=300, help="length of simulated sequences (default 300)")
-    parser.add_argument("--seeds", type=positive, default=5, help="rooms per preset in static_rooms and people_walking, at most 3 in sessions (default 5)")
+    parser.add_argument("--seeds", type=positive, default=5,
+                        help="rooms per preset in static_rooms and people_walking, at most 3 in sessions (default 5)")
     parser.add_argument("--presets", nargs="+", default=list(STATIC_PRESETS),
                         help="simulated rooms of the long trials; the last one is walked ten times")
     parser.add_argument("--build-dir", default=os.path.join(ROOT, "build", "release"))

@@ -11,6 +11,7 @@
 #include "detect/people.h"
 #include "features/image_check.h"
 #include "place/vocabulary_file.h"
+#include "slam/frame_counts.h"
 #include "slam/frame_input.h"
 #include "slam/live_map.h"
 #include "slam/map_archive.h"
@@ -19,6 +20,7 @@
 #include "slam/places.h"
 #include "slam/rig.h"
 #include "slam/snapshot_publisher.h"
+#include "slam/static_features.h"
 
 namespace cpslam {
 namespace {
@@ -43,8 +45,8 @@ class System::Impl {
         rig_(checked(settings)),
         places_(make_places(rig_.settings)),
         live_(make_map(true, 0)),
-        features_(rig_.settings.camera, rig_.settings.orb),
-        people_(rig_.settings, std::move(detector), timer_, log_) {
+        people_(rig_.settings, std::move(detector), timer_, log_),
+        features_(rig_.settings, people_, timer_) {
     if (live_->loaded) counts_.loaded_map = live_->loaded->statistics;
     begin_dense_views();
   }
@@ -61,7 +63,8 @@ class System::Impl {
     {
       const auto scope = timer_.time("track");
       people_.begin(frame, live_->tracking.expected_motion(interval_s));
-      std::shared_ptr<const FrameFeatures> features = static_features(frame, depth_time_s - frame.time_s);
+      std::shared_ptr<const FrameFeatures> features =
+          features_.extract(frame, live_->tracking.expected_motion(depth_time_s - frame.time_s));
       result = live_->tracking.track(frame.time_s, std::move(features), live_->back_end.load());
       people_.end(live_->tracking.expected_motion(interval_s), is_tracked(result.state));
     }
@@ -132,7 +135,7 @@ class System::Impl {
   [[nodiscard]] FrameView frame_view() const {
     FrameView view;
     view.time_s = last_time_s_.value_or(0.0);
-    if (candidates_ != nullptr) show_keypoints(view);
+    features_.show(live_->tracking.tracked_keypoints(), view);
     people_.show(view);
     return view;
   }
@@ -179,21 +182,6 @@ class System::Impl {
     }
   }
 
-  /// The features of the frame that are not on people.
-  std::shared_ptr<const FrameFeatures> static_features(const RgbdFrame& frame, double depth_delay_s) {
-    {
-      const auto scope = timer_.time("track: features");
-      candidates_ = &features_.extract(to_grey(frame.colour), frame.depth,
-                                       live_->tracking.expected_motion(depth_delay_s), people_.prior());
-    }
-    kept_ = people_.filter(*candidates_);
-    if (const int missing = people_.missing_keypoints(kept_); missing > 0) {
-      features_.extend(*candidates_, people_.excluded(), missing);
-      kept_ = people_.filter(*candidates_);
-    }
-    return features_.finish(*candidates_, kept_);
-  }
-
   void add_dense_view(KeyFrameId keyframe, const RgbdFrame& frame, double depth_delay_s) {
     const auto scope = timer_.time("dense map: view");
     DenseFrame seen;
@@ -205,21 +193,6 @@ class System::Impl {
     if (depth_delay_s != 0.0) depth_cam_from_colour_cam = live_->tracking.expected_motion(depth_delay_s);
     seen.colour_cam_from_depth_cam = depth_cam_from_colour_cam.inverse();
     dense_views_->add(keyframe, seen, depth_cam_from_colour_cam, live_->map);
-  }
-
-  void show_keypoints(FrameView& view) const {
-    const std::vector<bool> tracked = live_->tracking.tracked_keypoints();
-    std::size_t n_kept = 0;
-    for (std::size_t i = 0; i < kept_.size(); ++i) {
-      const OrbKeypoint& k = candidates_->orb.keypoints[i];
-      FrameView::Kind kind = FrameView::Kind::kRemoved;
-      if (kept_[i] != 0) {
-        const bool holds_point = n_kept < tracked.size() && tracked[n_kept];
-        kind = holds_point ? FrameView::Kind::kTracked : FrameView::Kind::kKept;
-        ++n_kept;
-      }
-      view.keypoints.push_back({k.x, k.y, kind});
-    }
   }
 
   void publish(const cv::Mat& colour, const TrackResult& result, double tracking_ms) {
@@ -254,35 +227,8 @@ class System::Impl {
   }
 
   void count(const TrackResult& result) {
-    if (live_->loaded) count_in_loaded_map(result, *counts_.loaded_map);
-    if (result.bridged) ++counts_.bridged;
-    ++counts_.frames;
-    switch (result.state) {
-      case TrackingState::kWeak:
-        ++counts_.weak;
-        [[fallthrough]];
-      case TrackingState::kTracked:
-        ++counts_.tracked;
-        break;
-      case TrackingState::kPredicted:
-        ++counts_.predicted;
-        break;
-      case TrackingState::kLost:
-        ++counts_.lost;
-        break;
-      case TrackingState::kNotInitialized:
-        ++counts_.not_initialized;
-        break;
-    }
-  }
-
-  void count_in_loaded_map(const TrackResult& result, LoadedMapStatistics& loaded) const {
-    if (loaded.found_time_s) return;
-    if (is_tracked(result.state)) {
-      loaded.found_time_s = result.time_s;
-    } else {
-      ++loaded.frames_before_found;
-    }
+    count_frame(result, counts_);
+    if (live_->loaded) count_frame(result, *counts_.loaded_map);
   }
 
   const Log log_;
@@ -292,12 +238,10 @@ class System::Impl {
   Statistics counts_;              // those of the present map are asked for
   std::unique_ptr<LiveMap> live_;  // never null
   std::vector<DroppedMap> dropped_;
-  FrameFeaturesBuilder features_;
   People people_;
+  StaticFeatures features_;
   std::optional<DenseViews> dense_views_;  // empty unless a dense map is wanted
   std::optional<double> last_time_s_;
-  KeypointCandidates* candidates_ = nullptr;  // of the last frame; features_ owns them
-  std::vector<std::uint8_t> kept_;            // parallel to them
   std::optional<SnapshotPublisher> publisher_;
   bool finished_ = false;
 };

@@ -91,7 +91,7 @@ TEST(CameraFault, NobodyWaitsForeverForACameraThatOpensAndIsSilent) {
 TEST(CameraFault, CtrlCEndsTheWaitForASilentCamera) {
   const CameraOffice camera;
   const ProgramResult result =
-      camera.run({"--stall-seconds", "3600"}, "stall-after=20", {SIGINT, "map started"});
+      camera.run({"--stall-seconds", "3600"}, "stall-after=20", {SIGINT, "map 1 started"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(camera.stats().at("interrupted"), true);
   EXPECT_GT(camera.trajectory().size(), 0U);

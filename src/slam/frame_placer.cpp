@@ -37,6 +37,8 @@ std::optional<Placement> FramePlacer::place(const PlacementPrior& prior, Frame& 
   std::optional<Placement> moved = by_motion(prior, frame);
   const bool few = prior.may_bridge && is_few(moved);
   if (moved && !few && moved->inliers >= kSuspiciousShare * prior.last_inliers) return moved;
+  // Who was carried while the lens was covered meets furniture of the same kind near the old pose, too.
+  if (moved && prior.was_lost && !place_evidence(rig_, local_map_, frame).is_convincing()) moved.reset();
   // A second opinion. Where it is no better (a person steps in front of the camera), the first one stands.
   std::optional<Recognised> recognised = by_appearance(frame);
   if (!recognised || (moved && recognised->placement.inliers <= moved->inliers))

@@ -28,6 +28,7 @@ struct PlacementPrior {
   const Frame& last;  ///< the latest frame with a pose
   int last_inliers = 0;
   SE3 predicted_cam_from_world;
+  bool was_lost = false;    ///< the frame before got no pose: where the camera is since is a guess
   bool may_bridge = false;  ///< where the map has little or nothing, go by what the last frame saw
 };
 

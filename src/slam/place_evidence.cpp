@@ -14,11 +14,9 @@ constexpr float kBesidePx = 8.0F;
 // Noise of the depth, error of the pose, and a keypoint that lies beside the point on a slanted surface.
 constexpr double kToleranceM = 0.1;
 constexpr double kRelativeTolerance = 0.03;
-// Right places and wrong ones in docs/benchmarks.md, Places: no share tells all of them apart.
-constexpr double kPlentyMatched = 0.36;
-constexpr double kEnoughMatched = 0.24;
-constexpr double kEnoughFound = 0.22;
-constexpr double kMuchSeenThrough = 0.09;
+// Right places scored 0.18 and more, mostly above 0.24, wrong ones up to 0.19 (docs/benchmarks.md, Places).
+constexpr double kWeightOfSeenThrough = 2.0;
+constexpr double kConvincing = 0.21;
 
 enum class Depths : std::uint8_t { kNone, kAgree, kNearer, kFarther };
 
@@ -51,9 +49,7 @@ double share(std::ptrdiff_t part, std::ptrdiff_t rest) {
 }  // namespace
 
 bool PlaceEvidence::is_convincing() const {
-  if (matched_share >= kPlentyMatched) return true;
-  const bool enough = matched_share >= kEnoughMatched || found_share >= kEnoughFound;
-  return enough && seen_through_share <= kMuchSeenThrough;
+  return matched_share + found_share - kWeightOfSeenThrough * seen_through_share >= kConvincing;
 }
 
 PlaceEvidence place_evidence(const Rig& rig, const LocalMap& local_map, const Frame& frame) {

@@ -19,7 +19,8 @@ struct PlaceEvidence {
   /// A nearer depth says nothing: somebody may stand there.
   double seen_through_share = 0.0;
 
-  /// Whether the pose may be believed without knowing where the camera was before.
+  /// Whether the pose may be believed without knowing where the camera was before: no share alone tells all
+  /// right places from wrong ones, their balance does.
   [[nodiscard]] bool is_convincing() const;
 };
 

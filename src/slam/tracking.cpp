@@ -130,7 +130,8 @@ bool Tracking::place(Frame& frame) {
     const std::uint64_t corrections = refresh_last();
     // Who has left the map while localising is carried on until he is back, whatever was asked for meanwhile.
     const bool may_bridge = localizing_ || placement_.bridged;
-    const PlacementPrior prior{last_, last_inliers_, predicted_pose(frame.time_s), may_bridge};
+    const PlacementPrior prior{last_, last_inliers_, predicted_pose(frame.time_s), frames_without_pose_ > 0,
+                               may_bridge};
     std::optional<Placement> placement = placer_.place(prior, frame);
     // The frame may have been placed half in the map before and half in the one after a loop was closed.
     if (corrections != present_corrections()) continue;

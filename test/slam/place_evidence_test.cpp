@@ -108,12 +108,12 @@ TEST_F(Evidence, WithoutDepthsOrWithoutAMapThereIsNone) {
 
 /// matched, found, seen through
 TEST(PlaceEvidence, HasToConvince) {
-  EXPECT_TRUE((PlaceEvidence{0.5, 0.1, 0.2}.is_convincing()));     // things were moved since
-  EXPECT_TRUE((PlaceEvidence{0.13, 0.3, 0.05}.is_convincing()));   // a corner of what is mapped
+  EXPECT_TRUE((PlaceEvidence{0.44, 0.2, 0.16}.is_convincing()));   // things were moved since
+  EXPECT_TRUE((PlaceEvidence{0.13, 0.32, 0.06}.is_convincing()));  // a corner of what is mapped
   EXPECT_TRUE((PlaceEvidence{0.25, 0.13, 0.05}.is_convincing()));  // among many points
   EXPECT_FALSE(
-      (PlaceEvidence{0.3, 0.3, 0.15}.is_convincing()));  // another desk of the same kind, seen through
-  EXPECT_FALSE((PlaceEvidence{0.2, 0.15, 0.0}.is_convincing()));  // and one that is not
+      (PlaceEvidence{0.33, 0.14, 0.15}.is_convincing()));  // another desk of the same kind, seen through
+  EXPECT_FALSE((PlaceEvidence{0.13, 0.05, 0.02}.is_convincing()));  // and one that is not
 }
 
 }  // namespace

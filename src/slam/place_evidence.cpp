@@ -14,9 +14,12 @@ constexpr float kBesidePx = 8.0F;
 // Noise of the depth, error of the pose, and a keypoint that lies beside the point on a slanted surface.
 constexpr double kToleranceM = 0.1;
 constexpr double kRelativeTolerance = 0.03;
-// Right places scored 0.18 and more, mostly above 0.24, wrong ones up to 0.19 (docs/benchmarks.md, Places).
+// docs/benchmarks.md, Places: right places balanced to 0.18 and more, mostly above 0.24, wrong ones to 0.19;
+// but for some at the map's rim, which looked through more than right ones do where so little matches.
 constexpr double kWeightOfSeenThrough = 2.0;
 constexpr double kConvincing = 0.21;
+constexpr double kMuchSeenThrough = 0.12;
+constexpr double kPlentyMatched = 0.36;
 
 enum class Depths : std::uint8_t { kNone, kAgree, kNearer, kFarther };
 
@@ -49,6 +52,7 @@ double share(std::ptrdiff_t part, std::ptrdiff_t rest) {
 }  // namespace
 
 bool PlaceEvidence::is_convincing() const {
+  if (seen_through_share > kMuchSeenThrough && matched_share < kPlentyMatched) return false;
   return matched_share + found_share - kWeightOfSeenThrough * seen_through_share >= kConvincing;
 }
 

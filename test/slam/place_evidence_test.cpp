@@ -113,6 +113,7 @@ TEST(PlaceEvidence, HasToConvince) {
   EXPECT_TRUE((PlaceEvidence{0.25, 0.13, 0.05}.is_convincing()));  // among many points
   EXPECT_FALSE(
       (PlaceEvidence{0.33, 0.14, 0.15}.is_convincing()));  // another desk of the same kind, seen through
+  EXPECT_FALSE((PlaceEvidence{0.34, 0.32, 0.17}.is_convincing()));  // at the map's rim
   EXPECT_FALSE((PlaceEvidence{0.13, 0.05, 0.02}.is_convincing()));  // and one that is not
 }
 

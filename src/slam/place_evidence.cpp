@@ -86,7 +86,8 @@ PlaceEvidence place_evidence(const Rig& rig, const LocalMap& local_map, const Fr
   }
   // A found one that is not expected (at a bad angle, say) must not make more than all.
   const std::ptrdiff_t n_not_found = std::max<std::ptrdiff_t>(0, n_expected - n_matched);
-  return {share(n_matched, n_unmatched), share(n_matched, n_not_found), share(n_seen_through, n_seen)};
+  return {share(n_matched, n_unmatched), share(n_matched, n_not_found), share(n_seen_through, n_seen),
+          n_expected};
 }
 
 }  // namespace cpslam

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "slam/frame.h"
 #include "slam/local_map.h"
 #include "slam/rig.h"
@@ -18,6 +20,7 @@ struct PlaceEvidence {
   /// Of the points that are expected and beside which a depth was read: nothing there, only what is farther.
   /// A nearer depth says nothing: somebody may stand there.
   double seen_through_share = 0.0;
+  std::ptrdiff_t n_expected = 0;  ///< points that found_share is a share of
 
   /// Whether the pose may be believed without knowing where the camera was before: no share alone tells all
   /// right places from wrong ones, their balance does.

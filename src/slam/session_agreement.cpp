@@ -8,6 +8,7 @@
 
 #include "slam/keyframe_frame.h"
 #include "slam/local_map.h"
+#include "slam/place_evidence.h"
 
 namespace cpslam {
 namespace {
@@ -24,7 +25,6 @@ constexpr std::size_t kMostCompared = 30;
 constexpr double kAgreeingShare = 0.2;
 constexpr double kContradictingShare = 0.12;
 constexpr std::ptrdiff_t kFewestExpected = 60;
-constexpr float kNearPx = 25.0F;
 
 constexpr int kMinAgreeing = 4;
 constexpr int kAgreeingPerContradicting = 10;
@@ -90,31 +90,6 @@ std::vector<Pair> thinned(const std::vector<Pair>& pairs) {
   return some;
 }
 
-struct FoundPoints {
-  std::ptrdiff_t found = 0;
-  std::ptrdiff_t expected = 0;  // where the frame has a keypoint near, so that they could be found
-  [[nodiscard]] double share() const {
-    return found == 0 ? 0.0 : static_cast<double>(found) / static_cast<double>(std::max(found, expected));
-  }
-};
-
-FoundPoints count_found(const Rig& rig, const LocalMap& around, const Frame& frame) {
-  FoundPoints points;
-  points.found = std::count_if(frame.matches.begin(), frame.matches.end(), [](const PointMatch& match) {
-    return match.kind == PointMatch::Kind::kMapPoint;
-  });
-  const Eigen::Vector3d centre = frame.cam_from_world.inverse().translation;
-  std::vector<int> near;
-  for (const PointSnapshot& point : around.points()) {
-    const auto query = expect_point(rig, point, frame.cam_from_world, centre, {});
-    if (!query) continue;
-    near.clear();
-    frame.features->grid.query(query->uv.x(), query->uv.y(), kNearPx, 0, rig.pyramid.n_levels() - 1, near);
-    if (!near.empty()) ++points.expected;
-  }
-  return points;
-}
-
 enum class Verdict { kAgrees, kContradicts, kNeither };
 
 Verdict compare(const Rig& rig, const Map& map, const Pair& pair) {
@@ -126,11 +101,12 @@ Verdict compare(const Rig& rig, const Map& map, const Pair& pair) {
   // Both sessions have drifted a little: wide windows first.
   (void)track_local_map(rig, around, 3.0F, *frame);
   const LocalMapMatch match = track_local_map(rig, around, 1.0F, *frame);
-  const FoundPoints points = count_found(rig, around, *frame);
-  if (points.share() >= kAgreeingShare && match.inliers >= rig.settings.loops.min_inliers)
+  const PlaceEvidence evidence = place_evidence(rig, around, *frame);
+  if (evidence.found_share >= kAgreeingShare && match.inliers >= rig.settings.loops.min_inliers)
     return Verdict::kAgrees;
-  return points.share() < kContradictingShare && points.expected >= kFewestExpected ? Verdict::kContradicts
-                                                                                    : Verdict::kNeither;
+  const bool contradicts =
+      evidence.found_share < kContradictingShare && evidence.n_expected >= kFewestExpected;
+  return contradicts ? Verdict::kContradicts : Verdict::kNeither;
 }
 
 }  // namespace

@@ -2,10 +2,7 @@
 
 #include <unistd.h>
 
-#include <filesystem>
 #include <fstream>
-#include <regex>
-#include <vector>
 
 #include "cpslam/error.h"
 
@@ -22,14 +19,13 @@ void prepare_output_folder(const std::string& option, const std::string& folder)
   if (!writable) throw InputError(option + " " + folder + ": cannot write there");
 }
 
-void remove_numbered(const std::string& folder, const std::string& stem) {
-  const std::regex name(stem + "[0-9]+(_map[0-9]+)?\\.txt");
+std::vector<fs::path> find_files(const std::string& folder, const std::regex& name) {
   std::vector<fs::path> found;
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     if (std::regex_match(entry.path().filename().string(), name)) found.push_back(entry.path());
   }
-  for (const fs::path& path : found) fs::remove(path, ignored);
+  return found;
 }
 
 void check_writable(const std::string& option, const std::string& file) {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <filesystem>
+#include <regex>
 #include <string>
+#include <vector>
 
 namespace cpslam::program {
 
@@ -8,9 +11,9 @@ namespace cpslam::program {
 /// written: throws InputError naming the option and the folder.
 void prepare_output_folder(const std::string& option, const std::string& folder);
 
-/// Removes the files <stem><digits>.txt of an earlier run, also those with _map<digits>, of which this one
-/// may write fewer.
-void remove_numbered(const std::string& folder, const std::string& stem);
+/// The files in a folder whose names match a pattern in full; none where it cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> find_files(const std::string& folder,
+                                                            const std::regex& name);
 
 /// Throws InputError naming the option when a file cannot be written there: its folder is missing or not
 /// writable, or it is a folder itself.

@@ -12,6 +12,7 @@
 #include "common/run_program.h"
 #include "common/trajectory_files.h"
 #include "cpslam/error.h"
+#include "cpslam/trajectory.h"
 #include "io/atomic_file.h"
 #include "io/person_boxes.h"
 #include "io/trajectory_error.h"
@@ -59,7 +60,7 @@ std::unique_ptr<PictureWriter> make_picture_writer(const SlamOptions& options, c
 SlamSession::SlamSession(const SlamOptions& options, const Settings& settings, ProgressBar& bar)
     : options_(options), bar_(bar), log_(console_log(bar, options.quiet)) {
   prepare_output_folder("--output", options_.output);
-  for (const char* const name : {kDroppedFrames, kDroppedKeyFrames}) remove_numbered(options_.output, name);
+  for (const char* const name : {kDroppedFrames, kDroppedKeyFrames}) remove_dropped(options_.output, name);
   const std::string& boxes = options_.detector.save_boxes;
   if (!boxes.empty()) check_writable("--save-boxes", boxes);
   const std::string& map = options_.maps.save_map;
@@ -145,10 +146,9 @@ bool SlamSession::save(const std::string& ground_truth, RunReport& report) {
   }
   if (fs::exists(ground_truth)) {
     const auto compare = [&] {
-      Trajectory trajectory = system_->trajectory();
-      const int map_number = map_with_most(trajectory);
-      std::erase_if(trajectory, [&](const StampedPose& pose) { return pose.map != map_number; });
-      report.ate = absolute_trajectory_error(read_trajectory(ground_truth), trajectory);
+      const std::vector<Trajectory> maps = split_by_map(system_->trajectory());
+      report.ate = absolute_trajectory_error(read_trajectory(ground_truth),
+                                             maps.empty() ? Trajectory() : maps.front());
     };
     saved = attempt(compare) && saved;
   }

@@ -1,11 +1,10 @@
 #include "common/trajectory_files.h"
 
-#include <algorithm>
 #include <filesystem>
+#include <regex>
 #include <set>
-#include <string_view>
-#include <vector>
 
+#include "common/output_folder.h"
 #include "cpslam/error.h"
 #include "cpslam/trajectory.h"
 #include "io/trajectory_io.h"
@@ -15,25 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// NAME_map and a number and .txt.
-bool is_of_a_map(std::string_view file, const std::string& name) {
-  const std::string begin = name + "_map";
-  constexpr std::string_view kEnd = ".txt";
-  if (!file.starts_with(begin) || !file.ends_with(kEnd) || file.size() <= begin.size() + kEnd.size())
-    return false;
-  const std::string_view number = file.substr(begin.size(), file.size() - begin.size() - kEnd.size());
-  return std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
-void remove_others(const fs::path& folder, const std::string& name, const std::set<fs::path>& written) {
-  std::error_code error;
-  std::vector<fs::path> old;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    const fs::path& path = entry.path();
-    if (is_of_a_map(path.filename().string(), name) && !written.contains(path)) old.push_back(path);
-  }
-  for (const fs::path& path : old) {
-    if (!fs::remove(path, error)) throw RunError("'" + path.string() + "' is of another run and stays there");
+void remove_others(const std::string& folder, const std::string& name, const std::set<fs::path>& written) {
+  for (const fs::path& path : find_files(folder, std::regex(name + "_map[0-9]+\\.txt"))) {
+    std::error_code error;
+    if (!written.contains(path) && !fs::remove(path, error))
+      throw RunError("'" + path.string() + "' is of another run and stays there");
   }
 }
 
@@ -54,7 +39,13 @@ void write_by_map(const std::string& folder, const std::string& name, const Traj
     written.insert(path);
   }
   write_trajectory((dir / (name + ".txt")).string(), of_map);
-  remove_others(dir, name, written);
+  remove_others(folder, name, written);
+}
+
+void remove_dropped(const std::string& folder, const std::string& name) {
+  std::error_code ignored;
+  for (const fs::path& path : find_files(folder, std::regex(name + "[0-9]+(_map[0-9]+)?\\.txt")))
+    fs::remove(path, ignored);
 }
 
 int map_with_most(const Trajectory& trajectory) {

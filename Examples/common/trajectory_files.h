@@ -11,6 +11,10 @@ namespace cpslam::program {
 /// run or written before a loop joined two maps, go. Throws RunError that names the file.
 void write_by_map(const std::string& folder, const std::string& name, const Trajectory& trajectory, int map);
 
+/// Removes what an earlier run, which may have dropped more maps, wrote as <name><digits>: .txt and
+/// _map<digits>.txt.
+void remove_dropped(const std::string& folder, const std::string& name);
+
 /// Number of the map that has most of the poses; 1 without any.
 [[nodiscard]] int map_with_most(const Trajectory& trajectory);
 

@@ -133,7 +133,7 @@ struct LoadedMapStatistics {
   std::size_t frames_before_found = 0;  ///< frames without a pose until then
 };
 
-/// What is left of a map that System::reset() dropped, in that map's world, with the poses of that moment.
+/// What is left of the map, or maps, that System::reset() dropped, each in its world, as they were then.
 struct DroppedMap {
   Trajectory trajectory;           ///< of its tracked frames
   Trajectory keyframe_trajectory;  ///< of its keyframes that were alive

@@ -254,8 +254,8 @@ TEST_F(YoloDetectorTest, RefusesWhatMakesNoSense) {
   EXPECT_THAT(error([](DetectorSettings& s) { s.input_height = 100000; }), HasSubstr("at most 4096"));
 
   YoloDetector detector(good, Log());
-  EXPECT_THROW(detector.detect(cv::Mat(), 0.0), InputError);
-  EXPECT_THROW(detector.detect(cv::Mat(48, 64, CV_16UC1, cv::Scalar(1.0)), 0.0), InputError);
+  EXPECT_THROW((void)detector.detect(cv::Mat(), 0.0), InputError);
+  EXPECT_THROW((void)detector.detect(cv::Mat(48, 64, CV_16UC1, cv::Scalar(1.0)), 0.0), InputError);
   EXPECT_EQ(detector.detect(network.picture({0, 0}, kRedGreen), 0.0).size(), 1U) << "works after an error";
 }
 

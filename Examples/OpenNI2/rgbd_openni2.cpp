@@ -51,9 +51,8 @@ Settings make_settings(const RgbdOpenni2Options& options, const RgbdCamera& came
 std::unique_ptr<SequenceRecorder> make_recorder(const RgbdOpenni2Options& options, const Settings& settings,
                                                 const LogSink& log) {
   if (options.record.empty()) return nullptr;
-  using WhenBusy = SequenceRecorder::WhenBusy;
   return std::make_unique<SequenceRecorder>(options.record, settings,
-                                            settings.realtime ? WhenBusy::kDrop : WhenBusy::kWait, log);
+                                            settings.realtime ? WhenBusy::kLeaveOut : WhenBusy::kWait, log);
 }
 
 int main_program(const RgbdOpenni2Options& options) {

@@ -21,41 +21,10 @@ constexpr int kJpegQuality = 90;
 
 PictureWriter::PictureWriter(std::string folder, WhenBusy when_busy, LogSink log)
     : folder_(std::move(folder)),
-      when_busy_(when_busy),
-      log_(std::move(log)),
-      worker_([this](Picture&& picture, const std::stop_token&) { write(picture); }, kMaxWaiting) {
+      worker_([this](const Picture& picture) { write(picture); }, kMaxWaiting, when_busy, std::move(log),
+              "no more pictures are drawn") {
   prepare_output_folder("--draw", folder_);
   worker_.start();
-}
-
-void PictureWriter::add(const cv::Mat& image, FrameView view) {
-  if (ended_) return;
-  Picture picture{image, std::move(view)};
-  try {
-    if (when_busy_ == WhenBusy::kWait) {
-      worker_.push(std::move(picture));
-    } else if (!worker_.try_push(picture)) {
-      ++left_out_;
-    }
-  } catch (const std::exception& error) {
-    give_up(error.what());
-  }
-}
-
-void PictureWriter::finish() {
-  worker_.stop(OnStop::kDrain);
-  if (ended_) return;
-  try {
-    worker_.rethrow_if_failed();
-  } catch (const std::exception& error) {
-    give_up(error.what());
-  }
-}
-
-/// What the worker's handler threw has ended its thread.
-void PictureWriter::give_up(const std::string& reason) {
-  ended_ = true;
-  if (log_) log_(LogLevel::kWarning, reason + "; no more pictures are drawn");
 }
 
 void PictureWriter::write(const Picture& picture) const {

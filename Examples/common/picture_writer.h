@@ -3,28 +3,26 @@
 #include <cstddef>
 #include <opencv2/core/mat.hpp>
 #include <string>
+#include <utility>
 
-#include "cpslam/log.h"
 #include "cpslam/rgbd_frame.h"
-#include "util/worker.h"
+#include "util/best_effort_worker.h"
 
 namespace cpslam::program {
 
 /// Writes painted frames (common/frame_painter.h) into a folder, "<stamp>.jpg", from a thread of its own.
 class PictureWriter {
  public:
-  enum class WhenBusy { kWait, kLeaveOut };
-
   /// Makes the folder. Throws InputError naming it when pictures cannot be written there.
   PictureWriter(std::string folder, WhenBusy when_busy, LogSink log);
 
   /// image: not to be written to any more. After a picture that could not be written, which is warned of
   /// once, no more are taken.
-  void add(const cv::Mat& image, FrameView view);
+  void add(const cv::Mat& image, FrameView view) { worker_.add({image, std::move(view)}); }
   /// Writes what is waiting and ends the thread.
-  void finish();
+  void finish() { worker_.finish(); }
   /// Not written, because too many were waiting.
-  [[nodiscard]] std::size_t left_out() const { return left_out_; }
+  [[nodiscard]] std::size_t left_out() const { return worker_.left_out(); }
 
  private:
   struct Picture {
@@ -32,14 +30,9 @@ class PictureWriter {
     FrameView view;
   };
   void write(const Picture& picture) const;
-  void give_up(const std::string& reason);
 
   const std::string folder_;
-  const WhenBusy when_busy_;
-  const LogSink log_;
-  std::size_t left_out_ = 0;
-  bool ended_ = false;
-  Worker<Picture> worker_;
+  BestEffortWorker<Picture> worker_;
 };
 
 }  // namespace cpslam::program

@@ -42,7 +42,6 @@ std::unique_ptr<PersonDetector> make_recorded_detector(const SlamOptions& option
 std::unique_ptr<PictureWriter> make_picture_writer(const SlamOptions& options, const Settings& settings,
                                                    const LogSink& log) {
   if (options.detector.draw.empty()) return nullptr;
-  using WhenBusy = PictureWriter::WhenBusy;
   const WhenBusy when_busy = settings.realtime ? WhenBusy::kLeaveOut : WhenBusy::kWait;
   return std::make_unique<PictureWriter>(options.detector.draw, when_busy, log);
 }

@@ -50,9 +50,8 @@ std::ofstream open_list(const std::string& folder, const std::string& name, cons
 SequenceRecorder::SequenceRecorder(std::string folder, const Settings& settings, WhenBusy when_busy,
                                    LogSink log)
     : folder_(std::move(folder)),
-      when_busy_(when_busy),
-      log_(std::move(log)),
-      worker_([this](RgbdFrame&& frame, const std::stop_token&) { write(frame); }, kMaxWaiting) {
+      worker_([this](const RgbdFrame& frame) { write(frame); }, kMaxWaiting, when_busy, std::move(log),
+              "the recording ends here") {
   make_folder(folder_);
   colour_list_ = open_list(folder_, "rgb.txt", "colour images");
   depth_list_ = open_list(folder_, "depth.txt", "depth images");
@@ -62,36 +61,6 @@ SequenceRecorder::SequenceRecorder(std::string folder, const Settings& settings,
     refuse(folder_, error.what());
   }
   worker_.start();
-}
-
-void SequenceRecorder::add(const RgbdFrame& frame) {
-  if (ended_) return;
-  try {
-    RgbdFrame item = frame;
-    if (when_busy_ == WhenBusy::kWait) {
-      worker_.push(std::move(item));
-    } else if (!worker_.try_push(item)) {
-      ++dropped_;
-    }
-  } catch (const std::exception& error) {
-    give_up(error.what());
-  }
-}
-
-void SequenceRecorder::finish() {
-  worker_.stop(OnStop::kDrain);
-  if (ended_) return;
-  try {
-    worker_.rethrow_if_failed();
-  } catch (const std::exception& error) {
-    give_up(error.what());
-  }
-}
-
-/// What the worker's handler threw has ended its thread.
-void SequenceRecorder::give_up(const std::string& reason) {
-  ended_ = true;
-  if (log_) log_(LogLevel::kWarning, reason + "; the recording ends here");
 }
 
 void SequenceRecorder::write(const RgbdFrame& frame) {

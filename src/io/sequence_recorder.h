@@ -5,10 +5,9 @@
 #include <fstream>
 #include <string>
 
-#include "cpslam/log.h"
 #include "cpslam/rgbd_frame.h"
 #include "cpslam/settings.h"
-#include "util/worker.h"
+#include "util/best_effort_worker.h"
 
 namespace cpslam {
 
@@ -18,37 +17,30 @@ namespace cpslam {
 /// with a warning and nothing else. add() and finish() from one thread.
 class SequenceRecorder {
  public:
-  enum class WhenBusy { kWait, kDrop };
-
   /// Makes the folder. Throws InputError naming it when it is not empty or cannot be written.
   SequenceRecorder(std::string folder, const Settings& settings, WhenBusy when_busy, LogSink log);
 
   /// The images (depth: CV_16UC1) are not to be written to any more.
-  void add(const RgbdFrame& frame);
+  void add(const RgbdFrame& frame) { worker_.add(frame); }
   /// Writes what is waiting and ends the thread.
-  void finish();
+  void finish() { worker_.finish(); }
 
   [[nodiscard]] const std::string& folder() const { return folder_; }
   /// Frames on disk: all of them after finish().
   [[nodiscard]] std::size_t recorded() const { return recorded_; }
   /// Frames left out because too many were waiting.
-  [[nodiscard]] std::size_t dropped() const { return dropped_; }
+  [[nodiscard]] std::size_t dropped() const { return worker_.left_out(); }
   /// False when the recording was ended by a frame that could not be written.
-  [[nodiscard]] bool complete() const { return !ended_; }
+  [[nodiscard]] bool complete() const { return !worker_.failed(); }
 
  private:
   void write(const RgbdFrame& frame);
   void write_picture(const std::string& file, const cv::Mat& picture) const;
-  void give_up(const std::string& reason);
 
   const std::string folder_;
-  const WhenBusy when_busy_;
-  const LogSink log_;
   std::ofstream colour_list_, depth_list_;  // by the worker's thread only
   std::atomic<std::size_t> recorded_ = 0;
-  std::size_t dropped_ = 0;
-  bool ended_ = false;
-  Worker<RgbdFrame> worker_;  // last, so that its thread ends first
+  BestEffortWorker<RgbdFrame> worker_;  // last, so that its thread ends first
 };
 
 }  // namespace cpslam

@@ -19,7 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
-using WhenBusy = SequenceRecorder::WhenBusy;
 
 Settings settings() {
   Settings settings;
@@ -69,7 +68,7 @@ TEST(SequenceRecorder, WhatIsReadBackIsWhatWasRecorded) {
 
 TEST(SequenceRecorder, WhatIsNotDroppedIsThere) {
   const TemporaryFolder folder;
-  SequenceRecorder recorder(folder.file("session"), settings(), WhenBusy::kDrop, {});
+  SequenceRecorder recorder(folder.file("session"), settings(), WhenBusy::kLeaveOut, {});
   for (std::uint64_t i = 0; i < 500; ++i) recorder.add(frame(i));
   recorder.finish();
   EXPECT_EQ(recorder.recorded() + recorder.dropped(), 500U);

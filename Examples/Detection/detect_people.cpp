@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -103,12 +104,12 @@ class BoxList {
 class TimedDetector {
  public:
   TimedDetector(const DetectorSettings& settings, const Log& log, const std::string& file)
-      : detector_(settings, log), boxes_(file) {}
+      : detector_(make_yolo_detector(settings, log)), boxes_(file) {}
 
-  [[nodiscard]] std::string name() const { return detector_.name(); }
+  [[nodiscard]] std::string name() const { return detector_->name(); }
   void detect(const cv::Mat& colour, const Picture& picture) {
     const auto begin = std::chrono::steady_clock::now();
-    const std::vector<PersonBox> found = detector_.detect(colour, picture.time_s);
+    const std::vector<PersonBox> found = detector_->detect(colour, picture.time_s.value_or(0.0));
     ms_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     n_found_ = found.size();
     boxes_.add(picture.key, found);
@@ -119,7 +120,7 @@ class TimedDetector {
   void write() const { boxes_.write(); }
 
  private:
-  YoloDetector detector_;
+  std::unique_ptr<PersonDetector> detector_;
   BoxList boxes_;
   double ms_ = 0.0;
   std::size_t n_found_ = 0;
@@ -189,6 +190,9 @@ int detect_people(const DetectPeopleOptions& options) {
   report.source = options.source;
   report.settings.kind = DetectorKind::kYolo;
   apply(options.network, report.settings);
+  // What stands in one picture goes on from nothing in another.
+  if (!pictures.front().time_s)
+    report.settings.weak_confidence_threshold = report.settings.confidence_threshold;
 
   ProgressBar bar("detecting", pictures.size(), !options.quiet);
   Detectors detectors(options, report.settings, Log(console_log(bar, options.quiet)));

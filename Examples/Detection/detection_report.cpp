@@ -56,6 +56,7 @@ nlohmann::ordered_json settings_json(const DetectorSettings& s) {
           {"input_width", s.input_width},
           {"input_height", s.input_height},
           {"confidence_threshold", s.confidence_threshold},
+          {"weak_confidence_threshold", s.weak_confidence_threshold},
           {"nms_threshold", s.nms_threshold},
           {"classes", s.classes},
           {"n_threads", s.n_threads},
@@ -101,8 +102,12 @@ std::string to_json(const DetectionReport& report) {
 std::string to_text(const DetectionReport& report) {
   const Times times = times_of(report);
   std::string text = "network     " + report.network + "\n";
+  const DetectorSettings& settings = report.settings;
   text += line("pictures    %zu: %zu boxes of confidence %g and more", report.pictures.size(),
-               count_boxes(report), report.settings.confidence_threshold);
+               count_boxes(report), settings.confidence_threshold);
+  if (settings.weak_confidence_threshold < settings.confidence_threshold)
+    text += line("            and of %g and more where they go on from a box before",
+                 settings.weak_confidence_threshold);
   if (!report.left_out.empty())
     text += line("            %zu could not be read (see the warnings)", report.left_out.size());
   if (report.interrupted) text += "            interrupted: the pictures after that were not looked at\n";

@@ -19,7 +19,7 @@ std::vector<std::string> select_pictures(const PictureSelection& selection) {
   for (const std::string& source : selection.sources) {
     const std::vector<Picture> pictures = find_pictures(source);
     // Only the pictures of sequences have stamps, and only they resemble their neighbours.
-    const std::size_t step = pictures.front().time_s > 0.0 ? selection.every : 1;
+    const std::size_t step = pictures.front().time_s ? selection.every : 1;
     for (std::size_t i = 0; i < pictures.size(); i += step) paths.push_back(pictures[i].path);
   }
   return paths;

@@ -64,7 +64,13 @@ void add_network_options(CLI::App& app, const std::string& group, NetworkOptions
       ->type_name("DIR")
       ->group(group);
   add_size_option(app, group, options.input_size);
-  app.add_option("--confidence", options.confidence, "Least confidence of a box")
+  app.add_option("--confidence", options.confidence, "Least confidence of a box around somebody new")
+      ->check(CLI::Range(0.001, 1.0))
+      ->type_name("C")
+      ->group(group);
+  app.add_option("--weak-confidence", options.weak_confidence,
+                 "Least confidence of a box around somebody who was in one not long before; single pictures\n"
+                 "have none before; nothing when not below --confidence")
       ->check(CLI::Range(0.001, 1.0))
       ->type_name("C")
       ->group(group);
@@ -79,12 +85,13 @@ void add_network_options(CLI::App& app, const std::string& group, NetworkOptions
 }
 
 std::string first_given(const NetworkOptions& options) {
-  const std::array<std::pair<bool, const char*>, 7> given{
+  const std::array<std::pair<bool, const char*>, 8> given{
       {{!options.model.empty(), "--model"},
        {!options.classes.empty(), "--classes"},
        {!options.calibration.empty(), "--quantise"},
        {!options.input_size.empty(), "--input-size"},
        {options.confidence.has_value(), "--confidence"},
+       {options.weak_confidence.has_value(), "--weak-confidence"},
        {options.nms.has_value(), "--nms"},
        {options.n_threads.has_value(), "--detector-threads"}}};
   for (const auto& [is_given, name] : given) {
@@ -111,6 +118,7 @@ void apply(const NetworkOptions& options, DetectorSettings& settings) {
     settings.input_height = options.input_size.at(1);
   }
   settings.confidence_threshold = options.confidence.value_or(settings.confidence_threshold);
+  settings.weak_confidence_threshold = options.weak_confidence.value_or(settings.weak_confidence_threshold);
   settings.nms_threshold = options.nms.value_or(settings.nms_threshold);
   settings.n_threads = options.n_threads.value_or(settings.n_threads);
 }

@@ -19,6 +19,7 @@ struct NetworkOptions {
   std::string calibration;           ///< folder with pictures: run the network in 8-bit integers
   std::vector<int> input_size;       ///< px: width and height
   std::optional<double> confidence;
+  std::optional<double> weak_confidence;
   std::optional<double> nms;
   std::optional<int> n_threads;
 };

@@ -79,6 +79,7 @@ nlohmann::ordered_json detector_settings_json(const Settings& settings) {
           {"input_width", detector.input_width},
           {"input_height", detector.input_height},
           {"confidence_threshold", detector.confidence_threshold},
+          {"weak_confidence_threshold", detector.weak_confidence_threshold},
           {"nms_threshold", detector.nms_threshold},
           {"classes", detector.classes},
           {"n_threads", detector.n_threads},

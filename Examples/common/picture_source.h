@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,7 @@ namespace cpslam::program {
 struct Picture {
   std::string key;   ///< what its boxes are listed under: its path as the source has it, or its time stamp
   std::string path;  ///< ready to open
-  double time_s = 0.0;
+  std::optional<double> time_s{};  ///< of a sequence's
 };
 
 /// The pictures of: a TUM-format sequence (a folder with rgb.txt; keys are stamps), any other folder, a list

@@ -63,7 +63,7 @@ std::vector<PlacedImage> load_places(const std::string& source, std::size_t step
   if (has_truth) truth = read_trajectory(truth_path.string());
   std::vector<double> picture_times;
   std::vector<double> truth_times;
-  for (const program::Picture& picture : pictures) picture_times.push_back(picture.time_s);
+  for (const program::Picture& picture : pictures) picture_times.push_back(picture.time_s.value_or(0.0));
   for (const StampedPose& pose : truth) truth_times.push_back(pose.time_s);
   std::vector<const StampedPose*> pose_of(pictures.size(), nullptr);
   for (const auto& [picture, pose] : associate_stamps(picture_times, truth_times, kMaxStampDifferenceS))
@@ -76,7 +76,7 @@ std::vector<PlacedImage> load_places(const std::string& source, std::size_t step
     PlacedImage image;
     image.path = pictures[i].path;
     image.sequence = has_truth ? next_sequence : next_sequence++;
-    image.time_s = pictures[i].time_s;
+    image.time_s = pictures[i].time_s.value_or(0.0);
     if (has_truth) image.world_from_camera = from_pose(pose_of[i]->world_from_camera);
     image.descriptors = extract(extractor, pictures[i].path);
     images.push_back(std::move(image));

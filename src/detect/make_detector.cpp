@@ -32,7 +32,7 @@ DetectorSettings with_model(DetectorSettings settings) {
 }
 
 std::unique_ptr<PersonDetector> make_yolo(const DetectorSettings& settings, const LogSink& log) {
-  return std::make_unique<YoloDetector>(with_model(settings), Log(log));
+  return make_yolo_detector(with_model(settings), Log(log));
 }
 
 }  // namespace

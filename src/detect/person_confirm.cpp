@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "detect/box_overlap.h"
 #include "detect/grid_cells.h"
 #include "detect/still_surface.h"
 
@@ -23,18 +24,6 @@ constexpr double kUnseenBoxS = 0.2;  // a box without any depth cannot be carrie
 constexpr double kUndetectedS = 5.0;
 constexpr int kMinContacts = 3;
 constexpr std::size_t kMaxPeople = 254;
-
-double area(const PersonBox& box) {
-  return std::max(box.width, 0.0) * std::max(box.height, 0.0);
-}
-
-float box_overlap(const PersonBox& a, const PersonBox& b) {
-  const double width = std::min(a.x + a.width, b.x + b.width) - std::max(a.x, b.x);
-  const double height = std::min(a.y + a.height, b.y + b.height) - std::max(a.y, b.y);
-  if (width <= 0.0 || height <= 0.0) return 0.0F;
-  const double common = width * height;
-  return static_cast<float>(common / (area(a) + area(b) - common));
-}
 
 struct Pair {
   float overlap;

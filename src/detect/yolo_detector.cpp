@@ -4,21 +4,28 @@
 #include <chrono>
 #include <cstddef>
 #include <opencv2/core/utility.hpp>
+#include <opencv2/core/version.hpp>
 
 #include "cpslam/error.h"
 #include "detect/bgr_picture.h"
 #include "detect/calibration_pictures.h"
+#include "detect/hysteresis_detector.h"
 
 namespace cpslam {
 namespace {
 
 /// Each adds about two forward passes' time to the start. Between 1 and 32, more brought no better boxes.
 constexpr std::size_t kCalibrationPictures = 8;
+constexpr std::size_t kFewestToCompare = 3;  // people, to tell a ruined network from chance
 
 const DetectorSettings& checked(const DetectorSettings& settings) {
   const auto is_share = [](double value) { return value >= 0.0 && value <= 1.0; };
-  if (!is_share(settings.confidence_threshold) || settings.confidence_threshold <= 0.0) {
+  const auto is_confidence = [](double value) { return value > 0.0 && value <= 1.0; };
+  if (!is_confidence(settings.confidence_threshold)) {
     throw InputError("Detector.confidenceThreshold must lie in (0, 1]");
+  }
+  if (!is_confidence(settings.weak_confidence_threshold)) {
+    throw InputError("Detector.weakConfidenceThreshold must lie in (0, 1]");
   }
   if (!is_share(settings.nms_threshold)) throw InputError("Detector.nmsThreshold must lie in [0, 1]");
   if (settings.input_width < 0 || settings.input_height < 0) {
@@ -62,7 +69,15 @@ void YoloDetector::quantise(const Log& log) {
   const std::vector<cv::Mat> pictures =
       read_calibration_pictures(settings_.calibration, kCalibrationPictures, network_.description().input);
   const double float_ms = milliseconds_for(network_, pictures.front());
+  const std::size_t in_floats = count_people(pictures);
   network_.quantise(pictures);
+  const std::size_t in_integers = count_people(pictures);
+  // OpenCV 4.10 loses everybody where 4.6 loses next to nobody.
+  if (in_floats >= kFewestToCompare && 2 * in_integers < in_floats) {
+    throw InputError("8-bit integers ruin '" + settings_.model_weights + "' with OpenCV " CV_VERSION ": of " +
+                     std::to_string(in_floats) + " people in the pictures it was calibrated on it finds " +
+                     std::to_string(in_integers) + "; leave --quantise out");
+  }
   const double int_ms = milliseconds_for(network_, pictures.front());
   const std::string times = name() + ": " + std::to_string(static_cast<int>(int_ms)) + " ms, in floats " +
                             std::to_string(static_cast<int>(float_ms)) + " ms";
@@ -74,12 +89,21 @@ void YoloDetector::quantise(const Log& log) {
   }
 }
 
+std::size_t YoloDetector::count_people(const std::vector<cv::Mat>& pictures) {
+  std::size_t n = 0;
+  for (const cv::Mat& picture : pictures) n += boxes_in(picture).size();
+  return n;
+}
+
+std::vector<PersonBox> YoloDetector::boxes_in(const cv::Mat& picture) {
+  return decode_yolo(network_.run(picture), network_.description().input, settings_.classes,
+                     {settings_.confidence_threshold, settings_.nms_threshold});
+}
+
 std::vector<PersonBox> YoloDetector::detect(const cv::Mat& colour, double /*time_s*/) {
   const cv::Mat bgr = to_bgr(colour);
   if (bgr.size() != letterbox_.image()) letterbox_ = Letterbox(bgr.size(), network_.description().input);
-  const std::vector<cv::Mat> outputs = network_.run(letterbox_.fit(bgr));
-  std::vector<PersonBox> boxes = decode_yolo(outputs, network_.description().input, settings_.classes,
-                                             {settings_.confidence_threshold, settings_.nms_threshold});
+  std::vector<PersonBox> boxes = boxes_in(letterbox_.fit(bgr));
   for (PersonBox& box : boxes) box = letterbox_.to_image(box);
   return boxes;
 }
@@ -88,6 +112,14 @@ std::string YoloDetector::name() const {
   const cv::Size input = network_.description().input;
   return "YOLO " + settings_.model_weights + ", " + std::to_string(input.width) + " x " +
          std::to_string(input.height) + (settings_.quantise ? ", 8-bit" : "");
+}
+
+std::unique_ptr<PersonDetector> make_yolo_detector(const DetectorSettings& settings, const Log& log) {
+  const double first = settings.confidence_threshold;
+  DetectorSettings all = checked(settings);
+  if (settings.weak_confidence_threshold >= first) return std::make_unique<YoloDetector>(settings, log);
+  all.confidence_threshold = settings.weak_confidence_threshold;
+  return std::make_unique<HysteresisDetector>(std::make_unique<YoloDetector>(all, log), first);
 }
 
 }  // namespace cpslam

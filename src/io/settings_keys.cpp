@@ -49,6 +49,8 @@ constexpr std::array kKeys = std::to_array<SettingsKey>({
     {"Detector.inputHeight", [](Settings& s) -> M { return &s.detector.input_height; }, 0, 4096},
     {"Detector.confidenceThreshold", [](Settings& s) -> M { return &s.detector.confidence_threshold; }, 0.001,
      1.0},
+    {"Detector.weakConfidenceThreshold",
+     [](Settings& s) -> M { return &s.detector.weak_confidence_threshold; }, 0.001, 1.0},
     {"Detector.nmsThreshold", [](Settings& s) -> M { return &s.detector.nms_threshold; }, 0.0, 1.0},
     {"Detector.threads", [](Settings& s) -> M { return &s.detector.n_threads; }, 0, 256},
     {"Detector.timeout", [](Settings& s) -> M { return &s.detector.timeout_s; }, 0.1, 3600.0},

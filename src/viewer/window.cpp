@@ -5,6 +5,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <cstdlib>
 #include <utility>
 
 #include "cpslam/error.h"
@@ -18,6 +19,13 @@ std::string last_problem() {
   return text != nullptr ? text : "no reason given";
 }
 
+/// GLFW 3.4 tries Wayland first, and where there is none the library below it complains to stderr.
+void choose_platform() {
+#ifdef GLFW_PLATFORM
+  if (std::getenv("WAYLAND_DISPLAY") == nullptr) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
+}
+
 Window& window_of(GLFWwindow* handle) {
   return *static_cast<Window*>(glfwGetWindowUserPointer(handle));
 }
@@ -25,6 +33,7 @@ Window& window_of(GLFWwindow* handle) {
 }  // namespace
 
 Window::Window(const std::string& title, cv::Size size) {
+  choose_platform();
   if (glfwInit() != GLFW_TRUE) {
     throw RunError("the viewer cannot be shown: " + last_problem() +
                    " (is there a display? without one: xvfb-run -a PROGRAM ...)");

@@ -208,10 +208,10 @@ TEST(YoloNetwork, RefusesWeightsThatGiveNoNumbers) {
   const TemporaryFolder folder;
   const GeneratedNetwork generated;
   std::vector<float> weights = generated.weights();
-  // Red and green grow beyond all numbers, and objectness is their difference.
+  // Red and green grow beyond all numbers, and where the box lies is their difference.
   weights[3] = weights[4] = 1e30F;
-  weights[21 + 7 + 12] = 1e20F;
-  weights[21 + 7 + 13] = -1e20F;
+  weights[21 + 7] = 1e20F;
+  weights[21 + 7 + 1] = -1e20F;
   const std::string config = folder.write("x.cfg", generated.config());
   const std::string path = folder.write("x.weights", weights_file(weights));
   EXPECT_THAT(input_error([&] { YoloNetwork(config, path, {}); }), HasSubstr("gives no numbers"));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <opencv2/core/version.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -103,6 +104,8 @@ TEST_F(ReferenceDetectorTest, FindsTheCrowdThroughTheLetterbox) {
 }
 
 TEST_F(ReferenceDetectorTest, FindsMostOfTheCrowdInEightBits) {
+  if (CV_VERSION_MAJOR > 4 || CV_VERSION_MINOR > 6)
+    GTEST_SKIP() << "measured with OpenCV 4.6; that of 4.10 spoils networks, and is refused where it does";
   settings_.quantise = true;
   settings_.calibration = (clip_ / "rgb").string();
   YoloDetector detector(settings_, Log());

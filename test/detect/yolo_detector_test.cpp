@@ -220,6 +220,46 @@ TEST_F(YoloDetectorTest, TheBundledNetworkRunsWhenNoneIsNamed) {
               testing::AllOf(HasSubstr("--model CFG WEIGHTS"), HasSubstr("--detector none")));
 }
 
+TEST_F(YoloDetectorTest, WeakBoxesGoOnFromBoxesBefore) {
+  const GeneratedNetwork network;
+  DetectorSettings settings = settings_for(network);
+  settings.confidence_threshold = 0.9;
+  settings.weak_confidence_threshold = 0.2;
+  const cv::Mat sure = network.picture({3, 3}, kRedGreen);
+  const cv::Mat weak = network.picture({3, 3}, kRedGreen * 0.52);
+  const double score = GeneratedNetwork::score(132.0 / 255.0, 132.0 / 255.0);
+  ASSERT_TRUE(score > 0.25 && score < 0.8) << score;
+  const std::unique_ptr<PersonDetector> detector = make_yolo_detector(settings, Log());
+  EXPECT_TRUE(detector->detect(weak, 1.0).empty());
+  EXPECT_EQ(detector->detect(sure, 1.1).size(), 1U);
+  EXPECT_EQ(detector->detect(weak, 1.2).size(), 1U);
+  settings.weak_confidence_threshold = 0.9;
+  const std::unique_ptr<PersonDetector> plain = make_yolo_detector(settings, Log());
+  EXPECT_EQ(plain->detect(sure, 1.1).size(), 1U);
+  EXPECT_TRUE(plain->detect(weak, 1.2).empty());
+}
+
+TEST_F(YoloDetectorTest, RefusesToRunANetworkThatEightBitsRuin) {
+  const GeneratedNetwork network;
+  DetectorSettings settings = settings_for(network);
+  for (int i = 0; i < 4; ++i)
+    folder_.write("lit/" + std::to_string(i) + ".png",
+                  encode(".png", network.picture({i, 2 * i}, kRedGreen)));
+  settings.calibration = folder_.file("lit");
+  settings.quantise = true;
+  EXPECT_NO_THROW(YoloDetector(settings, Log()));
+  std::vector<float> weights = network.weights();
+  weights[2] = 1e4F;  // blue, of class 1, leaves red and green no steps of their own
+  folder_.write("net.weights", weights_file(weights));
+  settings.model_weights = folder_.file("net.weights");
+  EXPECT_THAT(
+      input_error([&] { YoloDetector(settings, Log()); }),
+      testing::AllOf(HasSubstr("8-bit integers ruin"), HasSubstr("of 4 people"), HasSubstr("finds 0")));
+  settings.quantise = false;
+  YoloDetector detector(settings, Log());
+  EXPECT_EQ(detector.detect(network.picture({1, 1}, kRedGreen), 0.0).size(), 1U);
+}
+
 TEST_F(YoloDetectorTest, SaysWhatCalibrationLacks) {
   DetectorSettings settings = settings_for(GeneratedNetwork());
   settings.quantise = true;
@@ -249,6 +289,8 @@ TEST_F(YoloDetectorTest, RefusesWhatMakesNoSense) {
   EXPECT_THAT(error([](DetectorSettings& s) { s.classes = {}; }), HasSubstr("no class of"));
   EXPECT_THAT(error([](DetectorSettings& s) { s.confidence_threshold = 0.0; }),
               HasSubstr("Detector.confidenceThreshold"));
+  EXPECT_THAT(error([](DetectorSettings& s) { s.weak_confidence_threshold = 1.5; }),
+              HasSubstr("Detector.weakConfidenceThreshold"));
   EXPECT_THAT(error([](DetectorSettings& s) { s.nms_threshold = 1.5; }), HasSubstr("Detector.nmsThreshold"));
   EXPECT_THAT(error([](DetectorSettings& s) { s.input_width = -32; }), HasSubstr("Detector.inputWidth"));
   EXPECT_THAT(error([](DetectorSettings& s) { s.input_height = 100000; }), HasSubstr("at most 4096"));

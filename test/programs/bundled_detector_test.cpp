@@ -91,9 +91,10 @@ TEST_F(BundledDetector, GivesWayToWhatTheCommandLineSays) {
   const std::string boxes = folder_.write("boxes.txt", "1.0 1 1 10 20 0.5\n");
   EXPECT_EQ(track({"--boxes", boxes}).exit_code, 0);
   EXPECT_EQ(detector()["kind"], "boxes");
-  EXPECT_EQ(track({"--confidence", "0.7", "--input-size", "96x64"}).exit_code, 0);
+  EXPECT_EQ(track({"--confidence", "0.7", "--weak-confidence", "0.2", "--input-size", "96x64"}).exit_code, 0);
   EXPECT_EQ(detector()["kind"], "yolo");
   EXPECT_EQ(detector()["confidence_threshold"], 0.7);
+  EXPECT_EQ(detector()["weak_confidence_threshold"], 0.2);
   EXPECT_EQ(detector()["input_width"], 96);
   put_network("other");
   EXPECT_EQ(track({"--model", folder_.file("other/models/yc.cfg"), folder_.file("other/models/yc.weights")})

@@ -70,7 +70,7 @@ TEST_F(DetectPeople, ListsAreRelativeToThemselvesAndKeepTheirNames) {
   const ProgramResult result = detect({list, "--output", boxes, "--report", folder_.file("report.json")});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(TemporaryFolder::content(boxes), line("images/c.png", {6, 9}) + line("images/a b.png", {1, 1}));
-  EXPECT_THAT(result.out, HasSubstr("pictures    3: 2 boxes of confidence 0.45"));
+  EXPECT_THAT(result.out, HasSubstr("pictures    3: 2 boxes of confidence 0.6"));
   EXPECT_THAT(result.out, HasSubstr("ms a picture (median)"));
   const nlohmann::json json = report();
   EXPECT_EQ(json["boxes"], 2);
@@ -102,6 +102,19 @@ TEST_F(DetectPeople, OfASequenceBoxesAreListedByStampAsRgbdTumTakesThem) {
   ASSERT_EQ(frames.size(), 2U);
   EXPECT_EQ(frames[1].time_s, 10.533334);
   EXPECT_NEAR(frames[1].boxes.at(0).x, network_.box(0, 0, {2, 2}, 1.0).x, 0.006);
+}
+
+TEST_F(DetectPeople, OnlyInASequenceWeakBoxesGoOn) {
+  (void)picture("office/rgb/1.png", {1, 1}, kHalfSeen);
+  (void)picture("office/rgb/2.png", {1, 1}, kPerson);
+  (void)picture("office/rgb/3.png", {1, 1}, kHalfSeen);
+  folder_.write("office/rgb.txt", "10.50 rgb/1.png\n10.53 rgb/2.png\n10.56 rgb/3.png\n");
+  const ProgramResult sequence = detect({folder_.file("office"), "--weak-confidence", "0.01"});
+  EXPECT_EQ(lines_of(sequence.out).size(), 2U) << sequence.out;
+  EXPECT_THAT(sequence.err, HasSubstr("and of 0.01 and more where they go on from a box before"));
+  const ProgramResult pictures = detect({folder_.file("office/rgb"), "--weak-confidence", "0.01"});
+  EXPECT_EQ(lines_of(pictures.out).size(), 1U) << pictures.out;
+  EXPECT_EQ(lines_of(detect({folder_.file("office"), "--quiet"}).out).size(), 1U);
 }
 
 TEST_F(DetectPeople, ClassesGoByIndexOrByTheNamesBesideTheNetwork) {

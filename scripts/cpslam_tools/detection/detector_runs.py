@@ -19,7 +19,7 @@ from .pictures import picture_size
 # the pictures. Recorded boxes have no times.
 Run = collections.namedtuple("Run", "network input_size numbers boxes sizes detection_ms time_ratio")
 
-DEFAULT_CONFIDENCE = 0.45  # DetectorSettings::confidence_threshold
+DEFAULT_CONFIDENCE = 0.6  # DetectorSettings::confidence_threshold
 
 
 class Detector:

@@ -176,7 +176,7 @@ def test_mot_tells_coverage_and_accuracy(evaluate, tmp_path, write):
     write("mot/img1/000002.found", ["0 0 20 40 0.9", "50 50 20 40 0.8"])
     result, _ = evaluate("--mot", tmp_path / "mot")
     assert result.returncode == 0, result.stderr
-    assert "coverage at 0.45 | accuracy" in result.stdout
+    assert "coverage at 0.6 | accuracy" in result.stdout
     assert cells(result.stdout, "yc")[4:6] == ["0.667", "0.667"]
     assert "| yc      | 416 x 416 | float   | 0.500" in result.stdout, "one of two in the worst picture"
 

@@ -57,7 +57,7 @@ def labelled(write, tmp_path):
         (tmp_path / "set" / name).mkdir(parents=True)
     write("set/labels/a.txt", ["0 0.1 0.1 0.2 0.2", "0 0.7 0.5 0.2 0.8"])
     write("set/labels/b.txt", ["0 0.5 0.5 0.4 0.4"])
-    write("set/images/a.found", ["60 10 20 80 0.9", "0 60 20 20 0.5"])
+    write("set/images/a.found", ["60 10 20 80 0.9", "0 60 20 20 0.7"])
     write("set/images/b.found", ["30 30 40 40 0.8"])
     for name in ("a.png", "b.png"):
         picture(tmp_path / "set" / "images" / name)

@@ -9,6 +9,7 @@ namespace {
 constexpr double kYawRad = -0.4;
 constexpr double kPitchRad = 0.7;
 constexpr double kGlidePerS = 5.0;
+constexpr double kAheadM = 1.2;    // what is looked at is more than who looks
 constexpr double kNear = 0.002;    // of the distance: there
 constexpr double kRoom = 1.0;      // around the map: its ball has corners to spare
 constexpr double kNotable = 0.04;  // of the map's radius: by less the overview does not move
@@ -43,6 +44,10 @@ void ViewControl::set_map(const MapSnapshot& map) {
   eye_.set_up(up);
 }
 
+void ViewControl::set_camera(const Eigen::Vector3d& position, const Eigen::Vector3d& looks) {
+  before_camera_ = position + kAheadM * looks;
+}
+
 void ViewControl::pan(double dx_px, double dy_px, double height_px) {
   mode_ = ViewMode::kFree;
   eye_.pan(dx_px, dy_px, height_px);
@@ -55,7 +60,7 @@ void ViewControl::zoom(double notches) {
 }
 
 std::optional<ViewControl::Aim> ViewControl::aim() const {
-  if (mode_ == ViewMode::kFollow && camera_) return Aim{*camera_, follow_distance_m_};
+  if (mode_ == ViewMode::kFollow && before_camera_) return Aim{*before_camera_, follow_distance_m_};
   if (mode_ == ViewMode::kOverview && extent_) {
     const double radius_m = std::max(0.3, kRoom * extent_->radius_m);
     return Aim{extent_->centre, OrbitCamera::distance_to_see(radius_m, aspect_)};

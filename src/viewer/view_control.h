@@ -9,7 +9,7 @@ namespace cpslam::viewer {
 
 enum class ViewMode {
   kOverview,  ///< the whole map, however it grows
-  kFollow,    ///< around the camera that is tracked
+  kFollow,    ///< around what the camera that is tracked has before it
   kFree,      ///< as the user left it
 };
 
@@ -27,7 +27,8 @@ class ViewControl {
   void reset();
 
   void set_map(const MapSnapshot& map);
-  void set_camera(const Eigen::Vector3d& position) { camera_ = position; }
+  /// looks: where to, of unit length.
+  void set_camera(const Eigen::Vector3d& position, const Eigen::Vector3d& looks);
   void set_aspect(double width_by_height) { aspect_ = width_by_height; }
 
   /// The mouse, as OrbitCamera has it. Panning and zooming leave the overview.
@@ -48,7 +49,7 @@ class ViewControl {
   OrbitCamera eye_;
   ViewMode mode_ = ViewMode::kOverview;
   std::optional<Extent> extent_;
-  std::optional<Eigen::Vector3d> camera_;
+  std::optional<Eigen::Vector3d> before_camera_;
   double aspect_ = 1.0;
   double follow_distance_m_ = 3.5;
   bool arrived_once_ = false;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "geometry/se3.h"
 #include "io/trajectory_error.h"
 #include "viewer/timing_panel.h"
 #include "viewer/widgets.h"
@@ -93,8 +94,9 @@ bool Viewer::take_snapshots() {
     scene_.set_frame(*frame_);
     timings_.add(*frame_);
     facts_.people = frame_->people.size();
-    const auto& at = frame_->result.world_from_camera.translation_m;
-    if (is_tracked(frame_->result.state)) view_.set_camera({at[0], at[1], at[2]});
+    const SE3 camera = from_pose(frame_->result.world_from_camera);
+    if (is_tracked(frame_->result.state))
+      view_.set_camera(camera.translation, camera.rotation * Eigen::Vector3d::UnitZ());
     if (!control_.wishes().localization) wished_localization_.reset();
     new_frame_ = fresh = true;
   }

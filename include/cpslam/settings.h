@@ -66,7 +66,7 @@ struct DetectorSettings {
   int input_width = 0;        ///< of the network, px, a multiple of its largest stride; 0: as its .cfg says
   int input_height = 0;
   double confidence_threshold = 0.6;       ///< of a box around somebody new
-  double weak_confidence_threshold = 0.3;  ///< of one that goes on from a box of the last half second
+  double weak_confidence_threshold = 0.3;  ///< of one that goes on from a box of the last 0.3 s
   double nms_threshold = 0.45;  ///< intersection over union above which the weaker of two boxes goes
   std::vector<int> classes{0};  ///< indices of the classes that count as people
   int n_threads = 0;            ///< > 0: for cv::setNumThreads, which holds for the process; 0: left as it is

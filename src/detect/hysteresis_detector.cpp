@@ -8,7 +8,7 @@
 namespace cpslam {
 namespace {
 
-constexpr float kSameOverlap = 0.3F;
+constexpr float kSameOverlap = 0.5F;
 
 }  // namespace
 

@@ -21,7 +21,7 @@ class HysteresisDetector : public PersonDetector {
   [[nodiscard]] std::vector<PersonBox> detect(const cv::Mat& colour, double time_s) override;
   [[nodiscard]] std::string name() const override { return detector_->name(); }
 
-  static constexpr double kMemoryS = 0.5;
+  static constexpr double kMemoryS = 0.3;
 
  private:
   struct Known {

@@ -14,13 +14,13 @@ namespace {
 constexpr float kMinOverlap = 0.3F;
 constexpr float kAroundBox = 0.15F;  // of its size
 constexpr int kMinFitCells = 4;
-constexpr int kMaxMissesOfNew = 1;  // who was detected only once or twice may be a chair
 constexpr int kMaxMisses = 3;
 constexpr int kConfirmationsToTrust = 3;
 constexpr float kFurnitureShare = 0.5F;  // of a surface that stands still
 constexpr double kMinMissedS = 0.7;
-constexpr double kHiddenS = 0.7;     // behind somebody else, say
-constexpr double kUnseenBoxS = 0.2;  // a box without any depth cannot be carried
+constexpr double kMinMissedDoubtfulS = 0.2;  // who was missed more often in a row than detected in all
+constexpr double kHiddenS = 0.7;             // behind somebody else, say
+constexpr double kUnseenBoxS = 0.2;          // a box without any depth cannot be carried
 constexpr double kUndetectedS = 5.0;
 constexpr int kMinContacts = 3;
 constexpr std::size_t kMaxPeople = 254;
@@ -185,8 +185,8 @@ void absorb_undetected(cv::Size grid_size, std::vector<PersonTrack>& tracks) {
 
 bool is_missed_too_often(const PersonTrack& track, double time_s) {
   if (track.confirmations == 0) return false;  // what moves need not be a person
-  const int most = track.confirmations >= kConfirmationsToTrust ? kMaxMisses : kMaxMissesOfNew;
-  return track.misses > most && time_s - track.confirmed_s > kMinMissedS;
+  const double least_s = track.misses > track.confirmations ? kMinMissedDoubtfulS : kMinMissedS;
+  return track.misses > std::min(track.confirmations, kMaxMisses) && time_s - track.confirmed_s > least_s;
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ TEST(HysteresisDetector, WeakBoxesStayWhereTheyGoOn) {
 }
 
 TEST(HysteresisDetector, WhoIsAwayTooLongIsNewAgain) {
-  EXPECT_EQ(left({{1.0, {box(0.0, 0.9)}}, {1.25, {}}, {1.5, {box(0.0, 0.4)}}, {2.01, {box(0.0, 0.4)}}}),
+  EXPECT_EQ(left({{1.0, {box(0.0, 0.9)}}, {1.1, {}}, {1.25, {box(0.0, 0.4)}}, {1.6, {box(0.0, 0.4)}}}),
             (Left{{0.9}, {}, {0.4}, {}}));
 }
 
@@ -66,10 +66,10 @@ TEST(HysteresisDetector, OneBoxGoesOnInOneBoxAndTheSurestComesFirst) {
 
 TEST(HysteresisDetector, NothingGoesOnFromWhatIsLaterOrElsewhere) {
   HysteresisDetector detector(std::make_unique<ScriptedDetector>(std::map<double, Boxes>{
-                                  {5.0, {box(0.0, 0.9)}}, {4.9, {box(0.0, 0.4)}}, {5.1, {box(90.0, 0.4)}}}),
+                                  {5.0, {box(0.0, 0.9)}}, {4.9, {box(0.0, 0.4)}}, {5.1, {box(40.0, 0.4)}}}),
                               0.6);
   EXPECT_EQ(detector.detect(cv::Mat(), 5.0).size(), 1U);
-  EXPECT_TRUE(detector.detect(cv::Mat(), 5.1).empty()) << "an overlap of 1 to 19";
+  EXPECT_TRUE(detector.detect(cv::Mat(), 5.1).empty()) << "an overlap of 6 to 14";
   EXPECT_TRUE(detector.detect(cv::Mat(), 4.9).empty());
   EXPECT_EQ(detector.name(), "script");
 }

@@ -15,9 +15,9 @@ namespace cpslam::e2e {
 namespace {
 
 constexpr double kFps = 10.0;
-// At a third of the frames and a quarter of the pixels odometry drifts by 0.07 m; a map that is joined to the
-// wrong place is off by metres.
-constexpr double kInPlaceM = 0.12;
+// At a third of the frames and a quarter of the pixels odometry drifts, with threads by 0.04 to 0.13 m from run
+// to run; a map that is joined to the wrong place is off by metres.
+constexpr double kInPlaceM = 0.25;
 
 std::size_t at_s(double seconds) {
   return static_cast<std::size_t>(std::lround(seconds * kFps));
